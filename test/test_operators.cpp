@@ -15,16 +15,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <cmath>
-#include <limits>
-#include <string>
-
 namespace test_operators {
 
-namespace SG = CGAL::Spectral_geometry;
-
-using Catch::Approx;
-using Catch::Matchers::ContainsSubstring;
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Surface_mesh = CGAL::Surface_mesh<Point>;
 using SG::Eigenpairs;
@@ -121,18 +113,6 @@ TEST_CASE("The consistent mass integrates products of linear functions exactly")
   CHECK(x.dot(op.B * y) == Approx(1. / 4.));
 }
 
-TEST_CASE("Another lumping is a choice of corner masses")
-{
-  const shapes::Matrices mesh = shapes::icosphere_matrices(1);
-  Eigen::MatrixXd corner_masses = SG::barycentric_corner_masses(mesh.V, mesh.T);
-  CHECK(corner_masses.sum() == Approx(area(mesh)));
-  corner_masses *= 2.;
-  const Laplace_operator doubled = SG::laplace_operator(mesh.V, mesh.T, corner_masses, 0.);
-  CHECK((doubled.mass - 2. * laplace(mesh).mass).cwiseAbs().maxCoeff() < 1e-14);
-  CHECK_THROWS_WITH(SG::laplace_operator(mesh.V, mesh.T, corner_masses.topRows(3), 0.),
-                    ContainsSubstring("corner masses"));
-}
-
 TEST_CASE(
     "The Laplacian does not depend on scale, the mass is an area, at any magnitude of coordinates")
 {
@@ -213,7 +193,7 @@ TEST_CASE("The mass is the averaged one where none is named")
 TEST_CASE("Removed vertices and faces are skipped, a vertex point map is respected")
 {
   Surface_mesh mesh;
-  shapes::make_grid(mesh, 3, 3);
+  shapes::make_mesh(mesh, shapes::grid_matrices(3, 3));
   CGAL::Euler::remove_face(halfedge(*faces(mesh).begin(), mesh), mesh);
   REQUIRE(mesh.has_garbage() == true);
   auto doubled = mesh.add_property_map<Surface_mesh::Vertex_index, Point>("v:doubled").first;
@@ -239,7 +219,7 @@ TEST_CASE("Bad meshes are refused by the name of the first offender")
   SECTION("a face that is not a triangle")
   {
     Surface_mesh graph;
-    shapes::make_grid(graph, 4, 4);
+    shapes::make_mesh(graph, shapes::grid_matrices(4, 4));
     const auto first = faces(graph).begin();
     CGAL::Euler::join_face(halfedge(*first, graph), graph);
     CHECK_THROWS_WITH(SG::mesh_matrices(graph),

@@ -23,21 +23,9 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numeric>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace test_relocation {
 
 using namespace spectral_test;
-using Catch::Matchers::ContainsSubstring;
 using Signals = SG::Relocation_options::Signals;
 
 namespace {
@@ -784,7 +772,7 @@ TEST_CASE("relocation refuses indices, numbers and eigenpairs that cannot be use
   F(2, 1) = std::nan("");
   refused("not a finite number", s.coarse, s.fine, F, s.P);
   refused("row 0 (counted from 0) of P sums to nan", s.coarse, s.fine, s.F(), std::nan("") * s.P);
-  refused("sums to 0.500000 and not to 1", s.coarse, s.fine, s.F(), 0.5 * s.P);
+  refused("sums to 0.5 and not to 1", s.coarse, s.fine, s.F(), 0.5 * s.P);
 
   {
     Eigen::MatrixXd V = s.coarse.V;
@@ -901,8 +889,8 @@ TEST_CASE("closest points are those of the same component, whichever lies in the
   CHECK(of_small > 0);
 }
 
-TEST_CASE("no row of P comes from the limb beside that of its vertex, closest points find the "
-          "right one after relocation, and its norm is no worse")
+TEST_CASE("no row of P comes from the limb beside that of its vertex, fewer "
+          "closest points find the wrong one after relocation, and its norm is no worse")
 {
   const shapes::Matrices input = shapes::folded_limb_matrices(200, 16, 0.062);
   SMS::Spectral_edge_collapse_options options;

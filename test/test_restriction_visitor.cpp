@@ -24,10 +24,6 @@
 #include "catch.h"
 #include "collapse_helpers.h"
 
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace test_restriction_visitor {
 
 using namespace spectral_test;
@@ -155,9 +151,9 @@ TEST_CASE("Edges without length are merged half and half")
     Mesh mesh = make_mesh(input);
     const Visitor visitor(mesh);
     collapse_to(mesh, 167, SMS::Edge_length_cost<Mesh>(), SMS::Midpoint_placement<Mesh>(), visitor);
-    REQUIRE(visitor.forest().number_of_merges() == 2);
-    CHECK(visitor.forest().merges()[0].weight == 0.5);
-    CHECK(visitor.forest().merges()[1].weight == 0.5);
+    REQUIRE(visitor.log().forest().number_of_merges() == 2);
+    CHECK(visitor.log().forest().merges()[0].weight == 0.5);
+    CHECK(visitor.log().forest().merges()[1].weight == 0.5);
     CHECK(fault_of_restriction(visitor.restriction(), visitor.vertex_map()) == "");
     CHECK(position_error(visitor.restriction(), input.V, positions(mesh)) < 1e-12);
   }
@@ -194,7 +190,7 @@ TEST_CASE("A constrained edge decides which vertex is kept, and P follows")
               constraints, midpoint))
           .edge_is_constrained_map(constraints)
           .visitor(visitor));
-  CHECK(visitor.forest().number_of_merges() > 20);
+  CHECK(visitor.log().forest().number_of_merges() > 20);
   CHECK(fault_of_restriction(visitor.restriction(), visitor.vertex_map()) == "");
   CHECK(position_error(visitor.restriction(), input.V, positions(mesh)) < 1e-12);
 }

@@ -55,8 +55,8 @@ struct Relocation_options : Run_control
   /// first K of the coarse ones are drawn to them, at most as many as a sixth of the vertices; of
   /// those that follow, at most up to a quarter of the vertices, the mean. Not for lumped masses,
   /// where the shape would make up for the error of the elements. Where |C|_L does not fall, or of
-  /// 4 K vertices by less than three per cent, the relocation is done anew with half their weight,
-  /// an eighth, a thirty-second, and none, until it does. Empty: no such term.
+  /// 4 K vertices by less than three per cent, the relocation is done anew with less and less of
+  /// their weight, in the end with none, until it does. Empty: no such term.
   Eigen::VectorXd eigenvalues;
 
   /// Ends after so many steps; one step is a value and a gradient, seldom two. With 80 the

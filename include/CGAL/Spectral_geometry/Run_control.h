@@ -41,7 +41,8 @@ enum class Phase {
 struct Progress
 {
   Phase phase; ///< what is being done
-  /// of this phase, in [0,1]; never decreases within a phase, but a run may enter a phase again
+  /// of this phase, in [0,1]; never decreases within a phase, on each thread that reports. A run
+  /// may enter a phase again
   double fraction;
   /// of the mesh that is simplified, as it is now; 0 where none is
   std::size_t number_of_vertices = 0;

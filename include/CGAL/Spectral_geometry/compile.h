@@ -8,8 +8,8 @@
 /*!
 \file
 \brief for the one source file that compiles what `CGAL_SPECTRAL_GEOMETRY_COMPILED` leaves out of
-all others: every function of `CGAL::Spectral_geometry` that depends on no mesh type. Without that
-macro nobody needs this file.
+all others: the long functions of `CGAL::Spectral_geometry` that depend on no mesh type. Without
+that macro nobody needs this file.
 `<CGAL/Surface_mesh_simplification/compile_spectral.h>` has this and the collapse loop.
 */
 

@@ -188,24 +188,10 @@ Eigen::MatrixXd numbered_positions(const Mesh& mesh, const NamedParameters& np, 
 
 } // namespace internal
 
-/// \brief returns the m x 3 barycentric corner masses of the mesh (V, T), one third of the face's
-/// area at each corner.
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V,
+/// \brief returns a third of the area of each face of the mesh (V, T), which it gives to each of
+/// its corners.
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd barycentric_corner_masses(const Eigen::MatrixXd& V,
                                                                         const Eigen::MatrixXi& T);
-
-/// \brief assembles stiffness and mass of the mesh (V, T) with a lumping of the user's choice.
-///
-/// \param V, T            n x 3 positions and m x 3 vertex indices
-/// \param corner_masses   m x 3, the lumped mass that face f gives to its corner k, in units of
-/// area, not negative
-///                        (`barycentric_corner_masses()`, or a Voronoi or mixed lumping)
-/// \param theta           weight of the consistent mass (A/6 on the diagonal, A/12 off it, per
-/// face), in [0, 1]
-///
-/// Throws as the overload without corner masses does.
-CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator
-laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                 const Eigen::MatrixXd& corner_masses, double theta);
 
 /// \brief assembles the cotangent Laplacian and the mass of the mesh (V, T).
 ///
@@ -404,27 +390,14 @@ Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p, const Eigen::V
   return internal::cotangents_of(p, q, r, {});
 }
 
-Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
+Eigen::VectorXd barycentric_corner_masses(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
 {
   internal::check_positions(V);
   internal::check_triangles(T, V.rows());
-  Eigen::MatrixXd corner_masses(T.rows(), 3);
+  Eigen::VectorXd corner_masses(T.rows());
   for(Eigen::Index f = 0; f < T.rows(); ++f)
-    corner_masses.row(f).setConstant(internal::checked_cotangents(V, T, f).area / 3.);
+    corner_masses[f] = internal::checked_cotangents(V, T, f).area / 3.;
   return corner_masses;
-}
-
-Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                                  const Eigen::MatrixXd& corner_masses, double theta)
-{
-  internal::check_positions(V);
-  internal::check_triangles(T, V.rows());
-  internal::check_local_operator(theta, V.rows());
-  internal::require(corner_masses.rows() == T.rows() && corner_masses.cols() == 3,
-                    "Laplace operator: the corner masses must be a matrix of the size of T.");
-  return internal::assemble(T, V.rows(), theta, [&](const Eigen::Index f) {
-    return internal::Face_element{internal::checked_cotangents(V, T, f), corner_masses.row(f)};
-  });
 }
 
 Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,

@@ -21,14 +21,14 @@ namespace CGAL::Spectral_geometry {
 /// by a Lanczos method with a factorisation of \f$L - \sigma B\f$. About six tenths of the wanted
 /// eigenvalues are below the shift \f$\sigma\f$, which the signs of the pivots count (Grimes, Lewis
 /// and Simon 1994): the iteration then approaches the wanted spectrum from both of its ends. For
-/// fewer than 16 pairs, more than four zeros, a `maximum_vectors` that is given, or where no such
-/// shift serves, the shift is \f$-s\f$, where \f$s = 4\pi/\f$area is the mean spacing of the
-/// eigenvalues by Weyl's law: the matrix is positive definite, and the eigenvalues next to 0 are
-/// separated as well as with a smaller one. An L in another unit (entries a thousand times larger
-/// or smaller than cotangents) has s in that unit. Start vectors are fixed, so the result is the
-/// same in every run. With K = 100, `block` keeps about 2.4 K vectors of n doubles at a tolerance
-/// of 1e-8, 2.1 K at 1e-4, with the shift below 0 3.4 K and 2.8 K, never more than max(3.6 K, K +
-/// 120). More than 500 pairs are found some 120 at a time, each time with a shift among them.
+/// fewer than 16 pairs, a `maximum_vectors` that is given, or where no such shift serves, the shift
+/// is \f$-s\f$, where \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the
+/// matrix is positive definite, and the eigenvalues next to 0 are separated as well as with a
+/// smaller one. An L in another unit (entries a thousand times larger or smaller than cotangents)
+/// has s in that unit. Start vectors are fixed, so the result is the same in every run. With K =
+/// 100, `block` keeps about 2.4 K vectors of n doubles at a tolerance of 1e-8, 2.1 K at 1e-4, with
+/// the shift below 0 3.4 K and 2.8 K, never more than max(3.6 K, K + 120). More than 500 pairs are
+/// found some 120 at a time, each time with a shift among them.
 ///
 /// Eigenvectors are orthonormal in B. Signs: the first entry (in vertex order) that is larger in
 /// magnitude than 0.618 times the largest one is positive. Within an eigenspace of several
@@ -200,7 +200,7 @@ Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
       result = compute();
       if(have_converged(problem, options, result))
         return true;
-      reason = "a residual of " + in_digits(result.residuals.maxCoeff()) + " is left";
+      reason = sentence("a residual of ", result.residuals.maxCoeff(), " is left");
     } catch(const Not_converged& error) {
       reason = error.what();
     }
@@ -216,8 +216,8 @@ Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
     return result; // incomplete where the tolerance is not met: no solver does better in doubles
   }
   throw std::runtime_error(sentence("Eigenpairs: the solver did not converge to the tolerance ",
-                                    in_digits(options.tolerance), " for ", K, " pairs of ",
-                                    problem.size(), " vertices: ", reason,
+                                    options.tolerance, " for ", K, " pairs of ", problem.size(),
+                                    " vertices: ", reason,
                                     "; raise the tolerance or the number of iterations."));
 }
 
@@ -249,18 +249,27 @@ inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
   return result;
 }
 
-inline Laplace_operator operator_of_part(const Laplace_operator& op, const std::vector<int>& part)
+/// Rows and columns of a part, in their order; `place`: of each of its vertices in it.
+inline Laplace_operator operator_of_part(const Laplace_operator& op, const std::vector<int>& part,
+                                         const std::vector<int>& place)
 {
-  using Pick = Eigen::SparseMatrix<double>;
-  Pick pick(op.L.rows(), Eigen::Index(part.size()));
-  pick.reserve(Eigen::VectorXi::Ones(pick.cols()));
-  for(std::size_t i = 0; i < part.size(); ++i)
-    pick.insert(part[i], Eigen::Index(i)) = 1.;
-  pick.makeCompressed();
+  const auto block = [&](const Eigen::SparseMatrix<double>& A) {
+    const Eigen::Index n = Eigen::Index(part.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    for(Eigen::Index j = 0; j < n; ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator entry(A, part[j]); entry; ++entry) {
+        const int i = place[entry.row()]; // an entry that is 0 may join two parts
+        if(i < n && part[i] == entry.row())
+          entries.emplace_back(i, int(j), entry.value());
+      }
+    Eigen::SparseMatrix<double> result(n, n);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  };
   Laplace_operator result;
-  result.L = Pick(pick.transpose()) * op.L * pick;
-  result.B = Pick(pick.transpose()) * op.B * pick;
-  result.mass = pick.transpose() * op.mass;
+  result.L = block(op.L);
+  result.B = block(op.B);
+  result.mass = op.mass(part);
   return result;
 }
 
@@ -292,6 +301,10 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
   std::vector<Eigenpairs> pairs(parts.size());
   std::vector<std::tuple<double, std::size_t, Eigen::Index>> order; // value, part, number there
   const double total = double(problem.size() - problem.op().vanishing);
+  std::vector<int> place(std::size_t(problem.size()), problem.size()); // in its part
+  for(const std::vector<int>& part : parts)
+    for(std::size_t i = 0; i < part.size(); ++i)
+      place[part[i]] = int(i);
   double bound = std::numeric_limits<double>::infinity(); // no wanted value is larger
   for(bool enough = false; !enough;) {
     enough = true;
@@ -305,7 +318,7 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
       // As many as a part of this size is likely to have (Weyl), with some to spare.
       const double share = double(K) * double(size) / total;
       const Eigen::Index wanted = known > 0 ? known + known / 2 + 8 : Eigen::Index(1.2 * share) + 8;
-      const Laplace_operator op = operator_of_part(problem.op(), parts[p]);
+      const Laplace_operator op = operator_of_part(problem.op(), parts[p], place);
       const auto report = [&](const double fraction) {
         problem.report((double(done) - (1. - fraction) * double(size)) / total);
         return true;

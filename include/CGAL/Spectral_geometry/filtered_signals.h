@@ -353,14 +353,11 @@ private:
 // Otherwise the mass is no sum of squares of pairs and vertices.
 inline void check_dominance(const Sparse_matrix& B)
 {
-  for(Index i = 0; i < B.cols(); ++i) {
-    double rest = 0.;
-    for(Sparse_matrix::InnerIterator it(B, i); it; ++it)
-      rest += it.row() == i ? it.value() : -std::abs(it.value());
+  const Eigen::VectorXd rest = dominance(B);
+  for(Index i = 0; i < B.cols(); ++i)
     require(
-        rest >= -1e-9 * B.coeff(i, i), "Filtered signals: in row ", i,
+        rest[i] >= -1e-9 * B.coeff(i, i), "Filtered signals: in row ", i,
         " (counted from 0) of B the other entries exceed the diagonal one; lump the mass matrix.");
-  }
 }
 
 inline void check_filtered_signals_options(const Filtered_signals_options& options)

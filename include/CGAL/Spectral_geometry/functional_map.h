@@ -206,7 +206,6 @@ struct Spectral_evaluation
   /// number of coarse modes of `norm_D_extended`, 1.1 `K` or as many as were given
   Eigen::Index extended_modes = 0;
 
-  double fine_theta = 0; ///< weight of the consistent mass in the operator of the fine mesh
   double theta = 0; ///< the same for the coarse mesh. Figures of different theta are not comparable
   /// "lumped", "averaged", "voronoi", "consistent", or "theta = ..." of the coarse mesh; both if
   /// they differ
@@ -315,7 +314,7 @@ inline std::string name_of_mass(const Laplace_operator& op)
   for(const Mass mass : {Mass::lumped, Mass::averaged, Mass::consistent})
     if(op.theta == mass_blend(mass))
       return mass_name(mass);
-  return "theta = " + std::to_string(op.theta);
+  return sentence("theta = ", op.theta);
 }
 
 inline void check_pairs(const char* which, const Laplace_operator& op, const Eigenpairs& pairs,
@@ -461,7 +460,6 @@ Spectral_evaluation evaluate_spectrum(const Laplace_operator& fine, const Eigenp
   e.requested_modes = K;
   e.judged_modes = judged;
   e.extended_modes = (std::min)(judged + (judged + 9) / 10, coarse_pairs.size());
-  e.fine_theta = fine.theta;
   e.theta = coarse.theta;
   e.mass = internal::name_of_mass(coarse);
   if(const std::string of_fine = internal::name_of_mass(fine); of_fine != e.mass)

@@ -77,7 +77,7 @@ inline Operator_coefficients coefficients_at_vertices(const Eigen::MatrixXd& V,
   internal::require(of_faces.rows() == T.rows(), "Local operator: there are coefficients for ",
                     of_faces.rows(), " faces, but the mesh has ", T.rows(),
                     "; give one row for each.");
-  const Eigen::VectorXd area = barycentric_corner_masses(V, T).col(0);
+  const Eigen::VectorXd area = barycentric_corner_masses(V, T);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(V.rows());
   Operator_coefficients result = Operator_coefficients::Zero(V.rows(), 7);
   for(Eigen::Index f = 0; f < T.rows(); ++f)

@@ -31,8 +31,8 @@ Nothing in that residual speaks for the coarse eigenvalues beyond K: their modes
 lower eigenvalues only, and each term \f$ (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f$ falls
 when \f$ \widetilde\lambda_i \f$ does, although these eigenvalues are too low already.
 The term of the spectrum therefore holds the mean of the next K / 2 where it was; this takes the
-lowest 1.5 K eigenpairs of the coarse mesh and 16 more, found once and followed every ten steps, and
-nothing of the fine one.
+lowest 1.5 K eigenpairs of the coarse mesh and 16 more, and nothing of the fine one. They are found
+once and followed every ten steps, with eigenvalues to come to every five.
 
 Nor does the residual say in which directions low eigenvectors lie, which biharmonic distances see
 first. Where signals are sampled and eigenpairs and eigenvalues of the fine mesh are given, at most

@@ -62,7 +62,7 @@ Operator_coefficients curvature_coefficients(const Eigen::MatrixXd& V, const Eig
   constexpr std::size_t wanted = 16, needed = 6;
   internal::require(alpha >= 0 && alpha <= 1e6, "Local operator: the anisotropy is ", alpha,
                     "; use a number from 0 to 1e6.");
-  const double area = 3 * barycentric_corner_masses(V, T).col(0).sum();
+  const double area = 3 * barycentric_corner_masses(V, T).sum();
   const double radius = std::sqrt(area / (4 * std::acos(-1.)));
   const auto rings = internal::Vertex_rings::of_vertices(T, V.rows());
   std::vector<char> seen(std::size_t(V.rows()), 0);

@@ -75,9 +75,9 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// First reduces a mesh of more vertices to this number with the quadrics of `shape` alone (M.
   /// Garland and P. Heckbert, *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997),
   /// and goes on with the spectral cost; at least 30 times the target is advised. Takes
-  /// three to nine microseconds for each vertex, twice as much where faces would go through
-  /// others. P spans both stages. Kept vertices and the ends of constrained edges stay. Signals,
-  /// eigenpairs, a filter and a visitor are refused where this stage takes part. 0: never.
+  /// three to nine microseconds for each vertex, at least twice as much where faces would go
+  /// through others. P spans both stages. Kept vertices and the ends of constrained edges stay.
+  /// Signals, eigenpairs, a filter and a visitor are refused where this stage takes part. 0: never.
   std::size_t pre_simplify = 0;
 
   /// While the mesh has more than this many times the target's vertices, edges are collapsed by the

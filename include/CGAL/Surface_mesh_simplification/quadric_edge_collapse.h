@@ -244,7 +244,7 @@ struct Quadric_edge_collapse_result
  * works on arrays, takes three to nine microseconds for each vertex, and computes no eigenvectors.
  * No face turns by more than 78 degrees in a collapse, no needle appears where there was none, and
  * in the end no face goes through another, unless it did before; where that has to be looked after
- * it takes twice as long.
+ * it takes at least twice as long.
  *
  * @param mesh a triangle mesh without isolated vertices; changed in place, garbage is not collected
  * @param number_of_vertices the target, from 1 to the number of vertices. Where no edge is left
@@ -259,11 +259,6 @@ struct Quadric_edge_collapse_result
  *     \cgalParamDescription{the positions of the vertices}
  *     \cgalParamType{a model of `ReadWritePropertyMap` from vertices to points}
  *     \cgalParamDefault{the mesh's own map}
- *   \cgalParamNEnd
- *   \cgalParamNBegin{geom_traits}
- *     \cgalParamDescription{the kernel}
- *     \cgalParamType{one whose numbers `CGAL::to_double()` reads}
- *     \cgalParamDefault{that of the points}
  *   \cgalParamNEnd
  *   \cgalParamNBegin{edge_is_constrained_map}
  *     \cgalParamDescription{edges whose ends stay}

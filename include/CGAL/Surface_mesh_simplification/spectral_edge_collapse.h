@@ -347,9 +347,11 @@ spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
   if(number_of_vertices < result.input_vertices && !std::isfinite(options.maximum_error))
     internal::check_useful_target(Spectral_geometry::mesh_matrices(mesh, np), number_of_vertices,
                                   internal::number_of_signals(options));
+  const double checked = timer.time();
   internal::Pre_simplification first =
       internal::pre_simplify(mesh, result.input_vertices, number_of_vertices, options, np);
-  result.seconds_pre_simplification = timer.time();
+  if(first.done)
+    result.seconds_pre_simplification = timer.time() - checked;
   result.quadric_collapses = first.log.points().size();
   if(first.done)
     internal::run_after_first_stage(mesh, number_of_vertices, options, np, first, result);

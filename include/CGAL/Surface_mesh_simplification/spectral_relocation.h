@@ -53,9 +53,6 @@ relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
-  using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
-  using FT = typename Geom_traits::FT;
-  using Point = typename Geom_traits::Point_3;
   Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
   const Eigen::MatrixXd before = coarse.V;
   const std::vector<char> further = fixed_vertex_flags(mesh, kept_vertex_flags(mesh, {}, np), np);
@@ -66,10 +63,12 @@ relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
       Spectral_geometry::relocate_positions(coarse.V, coarse.T, P, fine, F, Z, op, fixed, options);
   const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
                                        get_property_map(vertex_point, mesh));
+  using Point = std::decay_t<decltype(get(points, *vertices(mesh).begin()))>;
+  using FT = typename Kernel_traits<Point>::Kernel::FT;
   Eigen::Index i = 0;
   for(const auto v : vertices(mesh)) {
-    if(coarse.V.row(i) !=
-       before.row(i)) // a point that did not move keeps its own number type's digits
+    // A point that did not move keeps its own number type's digits.
+    if(coarse.V.row(i) != before.row(i))
       put(points, v, Point(FT(coarse.V(i, 0)), FT(coarse.V(i, 1)), FT(coarse.V(i, 2))));
     ++i;
   }
@@ -181,11 +180,6 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  *     \cgalParamType{a model of `ReadWritePropertyMap` from vertices to points}
  *     \cgalParamDefault{the mesh's own map}
  *   \cgalParamNEnd
- *   \cgalParamNBegin{geom_traits}
- *     \cgalParamDescription{the kernel}
- *     \cgalParamType{one whose numbers `CGAL::to_double()` reads}
- *     \cgalParamDefault{that of the points}
- *   \cgalParamNEnd
  *   \cgalParamNBegin{vertex_is_constrained_map}
  *     \cgalParamDescription{vertices that stay where they are}
  *     \cgalParamType{a model of `ReadablePropertyMap` from vertices to `bool`}
@@ -293,9 +287,9 @@ spectral_relocation(TriangleMesh& mesh,
     relocation.progress = [&state](const double fraction) {
       return state.report(Spectral_geometry::Phase::relocation, fraction);
     };
-  return internal::relocate_after_collapses(
-      mesh, state, state.options(), policies.restriction(), relocation,
-      np.vertex_point_map(state.vertex_point_map()).geom_traits(state.geom_traits()));
+  return internal::relocate_after_collapses(mesh, state, state.options(), policies.restriction(),
+                                            relocation,
+                                            np.vertex_point_map(state.vertex_point_map()));
 }
 
 /// @}

@@ -7,8 +7,12 @@
 
 #include <CGAL/number_type_config.h>
 
+#include <Eigen/SparseCore>
+
 #include <cmath>
 #include <cstddef>
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -19,7 +23,12 @@ namespace CGAL::Spectral_geometry::internal {
 template <class Part>
 std::string in_words(const Part& part)
 {
-  if constexpr(std::is_arithmetic<Part>::value)
+  if constexpr(std::is_floating_point<Part>::value) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << part;
+    return out.str();
+  } else if constexpr(std::is_integral<Part>::value)
     return std::to_string(part);
   else if constexpr(std::is_convertible<Part, std::string>::value)
     return part;
@@ -27,27 +36,20 @@ std::string in_words(const Part& part)
     return part();
 }
 
-/// What the parts say: strings, numbers as `std::to_string()` writes them, and names as below,
-/// which nobody makes before they are needed.
+/// What the parts say: strings, numbers, and names as below, which nobody makes before they are
+/// needed.
 template <class... Part>
 std::string sentence(const Part&... parts)
 {
   return (in_words(parts) + ...);
 }
 
-/// Throws `std::invalid_argument` with the sentence that the parts make.
-template <class... Part>
-[[noreturn]] void refuse(const Part... parts)
-{
-  throw std::invalid_argument(sentence(parts...));
-}
-
-/// Refuses unless `holds`.
+/// Throws `std::invalid_argument` with the sentence that the parts make, unless `holds`.
 template <class... Part>
 void require(const bool holds, const Part... parts)
 {
   if(!holds)
-    refuse(parts...);
+    throw std::invalid_argument(sentence(parts...));
 }
 
 inline auto vertex_name(const std::ptrdiff_t v)
@@ -71,11 +73,8 @@ auto size_name(const Matrix& M)
 template <class Restriction>
 void check_rows_of_restriction(const char* const who, const Restriction& P)
 {
-  std::vector<double> sums(std::size_t(P.rows()), 0.);
-  for(std::ptrdiff_t v = 0; v < P.outerSize(); ++v)
-    for(typename Restriction::InnerIterator it(P, v); it; ++it)
-      sums[std::size_t(it.row())] += it.value();
-  for(std::size_t i = 0; i < sums.size(); ++i)
+  const Eigen::VectorXd sums = P * Eigen::VectorXd::Ones(P.cols());
+  for(Eigen::Index i = 0; i < sums.size(); ++i)
     require(std::abs(sums[i] - 1.) <= 1e-3, who, "row ", i, " (counted from 0) of P sums to ",
             sums[i], " and not to 1; pass the P of a run, or of closest_point_restriction().");
 }

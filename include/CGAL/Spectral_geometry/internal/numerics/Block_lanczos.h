@@ -456,8 +456,8 @@ private:
         continue;
       }
       if(++restarts > m_options.maximum_iterations)
-        throw Not_converged("a residual of " + in_digits(worst) + " is left after " +
-                            std::to_string(restarts - 1) + " restarts");
+        throw Not_converged(
+            sentence("a residual of ", worst, " is left after ", restarts - 1, " restarts"));
       restart();
       next_check = last_dimension = 0;
     }

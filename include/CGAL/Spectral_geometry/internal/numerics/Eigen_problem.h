@@ -12,8 +12,6 @@
 
 #include <CGAL/number_type_config.h>
 
-#include <sstream>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the
@@ -37,14 +35,6 @@ inline double pencil_shift(const Laplace_operator& op)
 inline Eigen::VectorXd dominance(const Eigen::SparseMatrix<double>& B)
 {
   return 2. * B.diagonal() - B.cwiseAbs() * Eigen::VectorXd::Ones(B.cols());
-}
-
-inline std::string in_digits(const double number)
-{
-  std::ostringstream out;
-  out.precision(2);
-  out << number;
-  return out.str();
 }
 
 /// An iteration has ended without all pairs.

@@ -20,8 +20,8 @@ With d the distance of a sample from the other surface, the term is
 \mathop{\mathrm{mean}}_{\text{coarse}} h^2 \Big), \qquad h = \max(0, d^2 / \delta^2 - 1), \f] where
 n is the number of coarse vertices. Samples of the fine surface are its vertices, those of the
 coarse one its vertices and the middles of its edges and faces. The threshold delta is a part of
-the largest distance of a fine vertex at the start: only few samples are beyond it, at tips and in
-folds, and what moves there hardly shows in the spectrum.
+the largest distance of a fine vertex at the start, or a quarter of a coarse sample's: only few
+samples are beyond it, at tips and in folds, and what moves there hardly shows in the spectrum.
 
 Between two calls of `refresh()` each sample keeps its closest face. The point in it that is closest
 moves with the vertices, which to the first order does not change the distance.

@@ -231,7 +231,7 @@ public:
           tau > 0 ? 0. : 1., sampled)
     , m_size(size)
     , m_spectrum(T, start, op, options.modes == 0 ? F.cols() : options.modes, options.eigenvalues,
-                 fine_modes, limits, options.threads)
+                 fine_modes, limits, options)
     , m_threads(options.threads)
   {
     m_S.set_threads(options.threads);

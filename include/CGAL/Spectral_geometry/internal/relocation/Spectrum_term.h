@@ -50,14 +50,15 @@ public:
   /// Without modes, or where a vertex has no face, it does nothing.
   Spectrum_term(const Eigen::MatrixXi& T, const Positions& V, const Local_operator& op,
                 const Index modes, const Eigen::VectorXd& eigenvalues, Fine_modes fine_modes,
-                const Relocation_limits& limits, const int threads = 1)
+                const Relocation_limits& limits, const Run_control& control = {})
     : m_T(T)
     , m_geometry(T, V.rows(), op)
     , m_modes(V.rows() - 1)
     , m_first(modes)
     , m_error(limits.eigenvalue_error)
     , m_fine_modes(std::move(fine_modes))
-    , m_threads(threads)
+    , m_threads(control.threads)
+    , m_cancel(control.cancel)
   {
     bool all_have_faces = true;
     for(Index v = 0; v < V.rows(); ++v) {
@@ -194,6 +195,7 @@ private:
     Eigenpairs_options options = Eigenpairs_options::with_tolerance(1e-3);
     options.verify = false;
     options.threads = m_threads;
+    options.cancel = m_cancel;
     const Eigenpairs pairs = eigenpairs(op, (std::min)(m_last + spare, m_modes), options);
     m_vectors = pairs.vectors;
     if(m_reference.size() == 0) { // it stays that of the start
@@ -269,6 +271,7 @@ private:
   double m_error;
   Fine_modes m_fine_modes;
   int m_threads;
+  const std::atomic<bool>* m_cancel;
   Low_mode_term m_low_modes;
   Row m_goals, m_weights; // at unit area; empty: none
   Row m_after_goals;      // eigenvalues that follow, as far as they are known

@@ -142,8 +142,9 @@ private:
 
   int edge_of(const int i, const int j)
   {
-    for(const Entry& entry : m_rows[i])
-      if(entry.neighbour == j)
+    const bool shorter = m_rows[i].size() < m_rows[j].size(); // that of j may be a hub's
+    for(const Entry& entry : m_rows[shorter ? i : j])
+      if(entry.neighbour == (shorter ? j : i))
         return entry.edge;
     const int e = int(m_edges.size());
     m_edges.push_back({i, j});

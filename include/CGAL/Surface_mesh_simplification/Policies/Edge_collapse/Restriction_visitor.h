@@ -142,9 +142,6 @@ public:
     return log().forest().vertex_map(this->m_follower->slots().current());
   }
 
-  /// The merges in the order in which they happened.
-  const Spectral_geometry::Merge_forest& forest() const { return log().forest(); }
-
   /// The merges and the points, from which `Collapse_replay` makes every level of detail.
   const Collapse_log& log() const { return this->m_follower->log(); }
 

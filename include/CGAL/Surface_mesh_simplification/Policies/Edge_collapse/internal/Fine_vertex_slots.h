@@ -132,8 +132,7 @@ public:
   using Triangle_mesh = TriangleMesh;
   using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
 
-  /// The mesh is not changed, but only one that may be can keep the slots right when its garbage is
-  /// collected.
+  /// A Surface_mesh is given a property, which keeps the slots right when its garbage is collected.
   Fine_vertex_slots(Triangle_mesh& mesh, const std::string& owner)
     : m_mesh(&mesh)
     , m_owner(owner)

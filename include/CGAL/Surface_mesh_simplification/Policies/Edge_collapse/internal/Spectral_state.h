@@ -234,7 +234,8 @@ public:
     const bool own = is_own_point(u, v, point);
     m_has_foreign_points = m_has_foreign_points || !own;
     const double value = own ? c.cost : m_core.cost_at(u, v, point);
-    m_core.set_queued_cost((std::min)(u, v), (std::max)(u, v), value);
+    if(!own || m_selecting)
+      m_core.set_queued_cost((std::min)(u, v), (std::max)(u, v), value);
     if(!(value < double((std::numeric_limits<float>::max)())))
       return Optional_cost(largest_cost());
     return Optional_cost(FT(value));

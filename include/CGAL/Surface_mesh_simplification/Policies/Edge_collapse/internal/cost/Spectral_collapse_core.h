@@ -25,8 +25,8 @@ namespace CGAL::Surface_mesh_simplification::internal {
  *
  * Order of calls: set_basis() once; where collapses come that others choose, set_input() and
  * follow() for each of them; set_geometry() at the start of each run; then, in any order,
- * evaluate(), select() or cost_at(), which change nothing but counts, and commit(), which follows
- * one collapse.
+ * evaluate(), select() or cost_at(), which remember costs and change nothing else, and commit(),
+ * which follows one collapse.
  */
 class Spectral_collapse_core
 {
@@ -107,7 +107,8 @@ public:
   {
     if(u == m_last_kept || v == m_last_kept || m_last_kept == null_spectral_slot)
       return {};
-    const double cost = m_fields.rings[u][m_fields.rings.find(u, v)].cost;
+    const auto [at, other] = place_of_cost(u, v);
+    const double cost = m_fields.rings[at][m_fields.rings.find(at, other)].cost;
     const bool inner =
         m_last_neighbor[u] == m_log.points().size() && m_last_neighbor[v] == m_last_neighbor[u];
     const double factor = inner ? inner_postponing_factor : outer_postponing_factor;
@@ -119,7 +120,8 @@ public:
   /// evaluate(): with a placement of the user's.
   void set_queued_cost(const Slot u, const Slot v, const double cost)
   {
-    m_fields.rings[u][m_fields.rings.find(u, v)].cost = cost;
+    const auto [at, other] = place_of_cost(u, v);
+    m_fields.rings[at][m_fields.rings.find(at, other)].cost = cost;
   }
 
   /// No cost is postponed from now on: somebody else chooses what is collapsed, and what that costs
@@ -184,6 +186,13 @@ private:
   // lies around it, at a thousand times the cost of others. With 4, 8, 16, 32 and 64 |C|_L of 19
   // runs was 34.7, 34.1, 32.4, 34.8 and 36.8 in the geometric mean.
   static constexpr double crossing_factor = 16;
+
+  // The ends of an edge, u < v: its cost stands in the ring of the first, no hub if one is none.
+  // Where a vertex becomes a hub, it was kept, and the costs of its edges are unknown.
+  std::pair<Slot, Slot> place_of_cost(const Slot u, const Slot v) const
+  {
+    return m_fields.is_hub(u) && !m_fields.is_hub(v) ? std::pair(v, u) : std::pair(u, v);
+  }
 
   // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the
   // rounding of the largest E that it has seen, and a needle makes an E that dwarfs the rest for a

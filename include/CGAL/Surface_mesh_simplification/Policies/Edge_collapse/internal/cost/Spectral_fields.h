@@ -24,7 +24,7 @@ struct Spectral_triangle
   Spectral_triangle from_first() const { return {cot_first, cot_second, cot_center, area}; }
   Spectral_triangle from_second() const { return {cot_second, cot_center, cot_first, area}; }
 
-  // A cotangent of 1e10 means an angle of 1e-10: such a triangle has no area that doubles can tell.
+  // A cotangent of 1e10 means an angle of 1e-10: collapses make no such triangle.
   static constexpr double degenerate_cotangent = 1e10;
 };
 
@@ -68,8 +68,7 @@ using Spectral_ring = std::vector<Spectral_ring_entry>;
  * corners.
  *
  * The policies see every mesh type through this mirror: the walk over halfedges is done once, for
- * the kept vertex of a collapse, and everything else is arithmetic on contiguous arrays, which may
- * run on several threads whatever the mesh is.
+ * the kept vertex of a collapse, and everything else is arithmetic on arrays.
  */
 class Spectral_rings
 {

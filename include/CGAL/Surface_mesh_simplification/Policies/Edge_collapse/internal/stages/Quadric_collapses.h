@@ -642,7 +642,8 @@ Quadric_collapses quadric_collapses(Triangle_arrays mesh,
                                     const std::function<void(std::size_t)>& progress)
 {
   // To look for intersections at each collapse takes five times as long as the collapses: all is
-  // done once more, with an eye on those that are left in the end, until there are no others.
+  // done once more, with an eye on those that are left in the end, until there are no others. The
+  // fifth run looks everywhere.
   const std::size_t n = std::size_t(mesh.V.rows());
   std::size_t least = n;
   const auto report = [&](const std::size_t left) {

@@ -127,8 +127,9 @@ struct Component_size
   /// some 3.5 for each handle.
   std::size_t of_shape() const
   {
-    const std::size_t genus = closed ? (2 + faces / 2 - vertices) / 2 : 0;
-    return (std::max)(least(), genus == 0 ? 0 : 6 + 4 * genus);
+    // Negative where sheets meet at a vertex, which is refused elsewhere.
+    const std::ptrdiff_t genus = closed ? (2 + std::ptrdiff_t(faces / 2 - vertices)) / 2 : 0;
+    return (std::max)(least(), genus <= 0 ? 0 : std::size_t(6 + 4 * genus));
   }
 };
 
