@@ -73,6 +73,16 @@ class Case(unittest.TestCase):
         with open(self.path(name)) as file:
             return file.read()
 
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return self.path(name)
+
+    def run_there(self, *words):
+        return subprocess.run(
+            words, cwd=self.folder, env=environment(), capture_output=True, text=True
+        )
+
     def same(self, a, b):
         self.assertIs(type(a), type(b))
         for name in vars(a):
@@ -161,8 +171,7 @@ class Results_live(Case):
     def test_other_files_are_refused(self):
         np.savez(self.path("other.npz"), a=np.ones(3))
         np.savez(self.path("list.npz"), spectral_simplification=np.array("[1, 2]"))
-        with open(self.path("text.npz"), "w") as file:
-            file.write("no archive")
+        self.write("text.npz", "no archive")
         RUN.save(self.path("run.npz"))
         with open(self.path("run.npz"), "rb") as file:
             whole = file.read()
@@ -210,6 +219,13 @@ class Results_live(Case):
             with self.assertRaisesRegex(ValueError, words):
                 ss.Eigenpairs.from_arrays(*arguments)
 
+    def test_a_mass_as_a_vector(self):
+        pairs = ss.eigenpairs(V, F, 9, "lumped")
+        w, U = ss.eigsh(pairs.L, pairs.M.diagonal(), 9)
+        np.testing.assert_allclose(w, pairs.values, atol=1e-8)
+        given = ss.Eigenpairs.from_arrays(w, U, pairs.L, pairs.M.diagonal())
+        self.assertEqual((given.mass, abs(given.M - pairs.M).nnz), ("lumped", 0))
+
     def test_any_pencil(self):
         pairs = ss.eigenpairs(V, F, 5, "consistent")
         w, U = ss.eigsh(1000 * pairs.L, pairs.M, 20)
@@ -230,6 +246,7 @@ class Results_live(Case):
             ("L is not symmetric", (skew.tocsr(), pairs.M, 5)),
             ("k is 0, it must be", (pairs.L, pairs.M, 0)),
             ("M has the shape", (pairs.L, pairs.M[:5, :5], 5)),
+            (r"M is a number.*call eigsh\(L, M, k\)", (pairs.L, 5, pairs.M)),
             ("must be a sparse matrix", (np.eye(3), None, 2)),
             ("of the mass matrix B is not positive", (pairs.L, -pairs.M, 5)),
         ):
@@ -510,6 +527,17 @@ class Meshes(Case):
             np.testing.assert_array_equal(own, other)
         judged = ss.evaluate(*run.part(), run.V, run.F, run.P[:, run.used], 30)
         self.assertLess(judged.eigenvalue_error, 0.04)
+        with self.assertWarnsRegex(UserWarning, "has a border, and V, F has none: after mask="):
+            ss.evaluate(V, F, run.V, run.F, run.P, 30)
+        for same in mask.astype(int), mask.astype(float):
+            np.testing.assert_array_equal(ss.simplify(V, F, 120, 30, mask=same).V, run.V)
+        away = np.where(mask, 1, np.nan)
+        for words, other in (
+            (r"mask\[%d\] is nan, it must be 1" % np.flatnonzero(~mask)[0], away),
+            ("mask has the entry 2, .* m = numpy.zeros", np.flatnonzero(mask)),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                ss.simplify(V, F, 120, 30, mask=other)
         labels = run.transfer_labels(np.where(V[:, 0] > 0, "east", "west"), by="area")
         away = abs(run.V[:, 0]) > 0.2
         np.testing.assert_array_equal(labels[away], np.where(run.V[:, 0] > 0, "east", "west")[away])
@@ -519,6 +547,44 @@ class Meshes(Case):
             ValueError, "keep names the vertex %d, which no face uses" % np.flatnonzero(~mask)[0]
         ):
             ss.simplify(V, F, 120, 30, mask=mask, keep=np.flatnonzero(~mask))
+
+    def test_what_is_said_names_vertices_of_all(self):
+        # A cap beside the part that stays, and one that touches it in a vertex.
+        stays, cap = V[:, 2] < 0.3, V[:, 2] > 0.9
+        with self.assertWarnsRegex(UserWarning, "smallest of 2 components") as warned:
+            run = ss.simplify(V, F, 120, 30, mask=stays | cap)
+        number = int(re.search(r"around vertex (\d+)", str(warned.warning))[1])
+        self.assertTrue(cap[number])
+        self.assertIn(str(warned.warning), run.report["warnings"])
+        self.assertEqual(warned.filename, __file__)
+        outer, corner = F[cap[F].all(axis=1)], np.flatnonzero(stays)[-1]
+        joined = V.copy(), np.vstack([F[stays[F].all(axis=1)], outer])
+        joined[1][joined[1] == outer[0, 0]] = corner
+        with self.assertRaisesRegex(ValueError, r"vertex %d .*leave the vertex out by it" % corner):
+            ss.simplify(*joined, 120, 30, mask=np.ones(len(V), bool))
+
+    def test_masks_of_files(self):
+        mask = V[:, 2] < 0.55
+        np.savetxt(self.path("mask.txt"), mask, "%d")
+        np.save(self.path("mask.npy"), mask)
+        names = ["mask.txt", "mask.npy"]
+        if HAVE["nibabel"]:
+            import nibabel
+
+            for kind in np.int32, np.float32:
+                names.append(f"mask.{np.dtype(kind).name}.gii")
+                array = nibabel.gifti.GiftiDataArray(mask.astype(kind))
+                nibabel.save(nibabel.GiftiImage(darrays=[array]), self.path(names[-1]))
+            rows = "".join(f"{v} 0 0 0 0\n" for v in np.flatnonzero(mask))
+            self.write("lh.cortex.label", f"#!ascii label\n{mask.sum()}\n{rows}")
+            names.append("lh.cortex.label")
+        for name in names:
+            np.testing.assert_array_equal(ss.read_mask(self.path(name), len(V)), mask)
+        with self.assertRaisesRegex(ValueError, r"mask.txt has the shape \(642,\), it must be \(9"):
+            ss.read_mask(self.path("mask.txt"), 9)
+        with self.assertRaisesRegex(ValueError, "must hold 0 or 1"):
+            ss.read_mask(self.write("two", "0\n2\n"), 2)
+        self.assertRaises(FileNotFoundError, ss.read_mask, self.path("none"), 2)
 
     def test_keep_by_booleans(self):
         flags = np.zeros(len(V), bool)
@@ -622,8 +688,7 @@ class Meshes(Case):
         ss.write_mesh(self.path("one.vtp"), V, F)
         text = self.text("one.vtp")
         begin, end = text.index("<Piece"), text.index("</PolyData>")
-        with open(self.path("two.vtp"), "w") as file:
-            file.write(text[:end] + text[begin:end] + text[end:])
+        self.write("two.vtp", text[:end] + text[begin:end] + text[end:])
         with self.assertRaisesRegex(ValueError, "two.vtp cannot be read: it has 2 pieces"):
             ss.read_mesh(self.path("two.vtp"))
         os.mkdir(self.path("folder.off"))
@@ -703,19 +768,27 @@ class Meshes(Case):
             "try: ss.write_mesh('x.gii', [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])\n"
             "except ValueError as e: print(e)"
         )
-        said = subprocess.run(
-            [sys.executable, "-c", hidden],
-            capture_output=True,
-            text=True,
-            cwd=self.folder,
-            env=environment(),
-        ).stdout
+        said = self.run_there(sys.executable, "-c", hidden).stdout
         self.assertRegex(
             said, "x.gii needs the package nibabel, which is not installed: pip install nibabel"
         )
 
 
 class Carried(Case):
+    def test_counts_and_flags_have_means_and_whole_numbers_are_labels(self):
+        counts = np.arange(len(V)) % 7
+        for given in counts.astype(np.int16), counts.tolist():
+            np.testing.assert_allclose(RUN.average(given), RUN.average(counts.astype(float)))
+        np.testing.assert_allclose(RUN.average(counts > 3), RUN.average((counts > 3) * 1.0))
+        run = ss.simplify(V, F, 120, 30, mask=V[:, 0] < 0.8)
+        labels = np.where(V[:, 0] < 0.8, counts, np.nan)
+        carried = run.transfer_labels(labels)
+        self.assertEqual(carried.dtype, np.int64)
+        np.testing.assert_array_equal(carried, run.transfer_labels(counts))
+        labels[run.used[5]] = np.nan
+        with self.assertRaisesRegex(ValueError, r"labels\[%d\] is missing" % run.used[5]):
+            run.transfer_labels(labels)
+
     def test_averages(self):
         noise = np.random.default_rng(3).standard_normal(len(V))
         self.assertLess(RUN.average(noise).std(), 0.6 * RUN.interpolate(noise).std())
@@ -922,6 +995,25 @@ class Poses(Case):
         self.assertLess(errors["relocated"], 0.95 * errors["P"])
         self.assertEqual(errors["given"], errors["relocated"])
 
+    def test_a_level_has_eigenpairs_and_carries_maps_as_a_run_does(self):
+        other = list(poses(4))[3]
+        posed, finer = RUN.apply(other, relocate=True), RUN.levels(300)
+        pairs = ss.eigenpairs(other, F, 40, tolerance=1e-8)
+        self.same_pairs(posed.fine_eigenpairs, pairs)
+        coarse = ss.eigenpairs(posed.V, posed.F, 40)
+        np.testing.assert_array_equal(posed.coarse_eigenpairs().values, coarse.values)
+        fitted = posed.coarse_eigenpairs(40, "fitted").values
+        self.assertLess(abs(fitted[1:] / pairs.values[1:] - 1).max(), 0.05)
+        self.assertIs(finer.fine_eigenpairs, RUN.eigenpairs)
+        self.assertEqual(len(finer.coarse_eigenpairs(5).vectors), 300)
+        T = ss.lift_point_map(np.arange(150), RUN, posed)
+        self.assertLess(np.linalg.norm(V[T] - V, axis=1).mean(), 0.1)
+        finer.save(self.path("level.npz"))
+        self.same(ss.load(self.path("level.npz")), finer)
+        density = ss.weighted_coefficients(1 + V[:, 0] ** 2)
+        level = ss.simplify(V, F, 150, 40, coefficients=density).levels(200)
+        np.testing.assert_allclose(level.coefficients, level.P @ density)
+
     def test_the_merges_are_those_of_the_run(self):
         paper = ss.simplify(V, F, 150, 40, "paper")
         self.assertLess(abs(paper._merge_restriction() - paper.P).max(), 1e-12)
@@ -975,8 +1067,7 @@ class Collections(Case):
         for i, pose in enumerate(poses(4)):
             names.append(self.path(f"pose{i}.off"))
             ss.write_mesh(names[-1], pose, F if i != 1 else np.vstack([F[:4, ::-1], F[4:]]))
-        with open(self.path("bad.off"), "w") as file:
-            file.write("OFF\n")
+        self.write("bad.off", "OFF\n")
         return names[:2] + [self.path("bad.off")] + names[2:]
 
     def check(self, rows):
@@ -1006,6 +1097,9 @@ class Collections(Case):
         rows = ss.simplify_collection(meshes, 150, k=40, repair=True, progress=False)
         self.assertEqual([row.error for row in rows], [None, None])
         self.assertEqual([row.result.P.shape for row in rows], [(150, 642), (150, 645)])
+        said = [" ".join(row.result.report["changes"]) for row in rows]
+        self.assertRegex(said[0], "triangulated")
+        self.assertRegex(said[1], "crack|vert")
         self.assertEqual(rows[1].result.report["output_vertices"], 150)
         run, faces = rows[1].result, np.vstack([len(V) + np.arange(3), F[1:]])
         for level in run, run.levels(300), run.apply(seam[0]):
@@ -1061,8 +1155,7 @@ class Collections(Case):
         self.assertRegex(rows[0].error, "0000.npz is the result of another mesh: choose another")
         self.assertIsNone(rows[1].error)
         np.testing.assert_allclose(ss.load(self.path("out/0000.npz")).V, RUN.V, atol=1e-9)
-        with open(self.path("out/0000.npz"), "w") as file:
-            file.write("no archive")
+        self.write("out/0000.npz", "no archive")
         self.assertRegex(call([(V, F)])[0].error, "0000.npz holds no result .* or remove it.$")
         self.assertEqual(self.text("out/0000.npz"), "no archive")
         for result in RUN, RUN.eigenpairs:  # of whoever wrote it
@@ -1095,8 +1188,7 @@ class Collections(Case):
             rows = ss.simplify_collection([(V, F)], 150, out, k=40, preset=preset, progress=False)
             self.assertEqual(rows[0].error is None, preset == "best")
         for text in '{"n": 6', '{"font": 12}':
-            with open(self.path("settings.json"), "w") as file:
-                file.write(text)
+            self.write("settings.json", text)
             with self.assertRaisesRegex(ValueError, "settings.json was written by something else"):
                 ss.simplify_collection([(V, F)], 150, self.folder, progress=False)
             self.assertEqual(self.text("settings.json"), text)
@@ -1239,30 +1331,16 @@ class Collections(Case):
 
 class Command_line(Case):
     def command(self, *words, program=()):
-        program = program or (sys.executable, "-m", "spectral_simplification")
-        return subprocess.run(
-            [*program, *words], cwd=self.folder, env=environment(), capture_output=True, text=True
+        return self.run_there(
+            *(program or (sys.executable, "-m", "spectral_simplification")), *words
         )
 
     def test_its_words(self):
         ss.write_mesh(self.path("in.off"), V, F)
         words = (
-            "in.off",
-            "out.off",
-            "--vertices",
-            "150",
-            "--eigenvectors",
-            "40",
-            "--relocate",
-            "carried",
-            "--restriction",
-            "P.mtx",
-            "--map",
-            "map.txt",
-            "--json",
-            "out.json",
-            "--quiet",
-        )
+            "in.off out.off --vertices 150 --eigenvectors 40 --relocate carried --quiet "
+            "--restriction P.mtx --map map.txt --json out.json"
+        ).split()
         done = self.command(*words, "--save", "run.npz")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         run = ss.simplify(V, F, 150, 40, relocate="carried")
@@ -1305,8 +1383,7 @@ class Command_line(Case):
         np.savetxt(self.path("halves"), [1.5, 2.5])
         np.savetxt(self.path("empty"), [])
         os.mkdir(self.path("folder.off"))
-        with open(self.path("quad.obj"), "w") as file:
-            file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        self.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
         there = {"in.off", "halves", "empty", "folder.off", "quad.obj"}
         for words, said in (
             (("none.off", "out.off", "--vertices", "150"), "none.off does not exist"),
@@ -1347,8 +1424,7 @@ class Command_line(Case):
 
     def test_no_file_is_lost(self):
         ss.write_mesh(self.path("in.off"), V, F)
-        with open(self.path("few"), "w") as file:
-            file.write("7\n")
+        self.write("few", "7\n")
         np.save(self.path("words.npy"), ["a", "b"])
         os.mkfifo(self.path("pipe"))
         os.symlink("real.off", self.path("link.off"))
@@ -1481,32 +1557,14 @@ class Recipes(Case):
         self.assertGreater(os.path.getsize(self.path("mode.png")), 10000)
 
     def test_beside_scipy(self):
-        done = subprocess.run(
-            [
-                sys.executable,
-                os.path.join(PAGE, "beside_scipy.py"),
-                "--vertices",
-                "900",
-                "--modes",
-                "10",
-            ],
-            cwd=self.folder,
-            env=environment(),
-            capture_output=True,
-            text=True,
-        )
+        script = os.path.join(PAGE, "beside_scipy.py")
+        done = self.run_there(sys.executable, script, "--vertices", "900", "--modes", "10")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess(float(re.search(r"SuperLU .* agree within (\S+)", done.stdout)[1]), 1e-7)
 
     def test_the_cortex_example_of_files(self):
         def cortex(*words):
-            return subprocess.run(
-                [sys.executable, os.path.join(PAGE, "cortex.py"), *words],
-                cwd=self.folder,
-                env=environment(),
-                capture_output=True,
-                text=True,
-            )
+            return self.run_there(sys.executable, os.path.join(PAGE, "cortex.py"), *words)
 
         ss.write_mesh(self.path("in.off"), V, F)
         others = [self.path("lh.off"), self.path("lh.ply")]
@@ -1525,13 +1583,8 @@ class Recipes(Case):
         self.assertIn("--mask is that of a surface", done.stderr)
 
     def test_the_cortex_example(self):
-        done = subprocess.run(
-            [sys.executable, os.path.join(PAGE, "cortex.py"), "--vertices", "300", "--modes", "50"],
-            cwd=self.folder,
-            env=environment(),
-            capture_output=True,
-            text=True,
-        )
+        script = os.path.join(PAGE, "cortex.py")
+        done = self.run_there(sys.executable, script, "--vertices", "300", "--modes", "50")
         self.assertEqual(done.returncode, 0, done.stderr)
         mesh, consistent, fitted = (
             float(re.search(name + r": error ([0-9.]+) %", done.stdout)[1])

@@ -390,36 +390,6 @@ void make_mesh(Mesh& mesh, const Matrices& from)
   }
 }
 
-template <class Mesh>
-void make_tetrahedron(Mesh& mesh)
-{
-  make_mesh(mesh, tetrahedron_matrices());
-}
-
-template <class Mesh>
-void make_icosphere(Mesh& mesh, int subdivisions, double radius = 1.)
-{
-  make_mesh(mesh, icosphere_matrices(subdivisions, radius));
-}
-
-template <class Mesh>
-void make_bumpy_icosphere(Mesh& mesh, int subdivisions)
-{
-  make_mesh(mesh, bumpy_icosphere_matrices(subdivisions));
-}
-
-template <class Mesh>
-void make_grid(Mesh& mesh, int nx, int ny, double width = 1., double height = 1.)
-{
-  make_mesh(mesh, grid_matrices(nx, ny, width, height));
-}
-
-template <class Mesh>
-void make_torus(Mesh& mesh, int nu, int nv, double major = 1., double minor = 0.4)
-{
-  make_mesh(mesh, torus_matrices(nu, nv, major, minor));
-}
-
 } // namespace shapes
 
 #endif // SPECTRAL_TEST_SHAPES_H

@@ -9,15 +9,7 @@
 
 #include <CGAL/Spectral_geometry/Run_control.h>
 
-#include <cmath>
-#include <numeric>
-#include <random>
-#include <set>
-#include <vector>
-
 namespace test_bcicp {
-
-namespace SG = CGAL::Spectral_geometry;
 
 namespace {
 

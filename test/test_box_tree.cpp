@@ -16,19 +16,7 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <iterator>
-#include <limits>
-#include <random>
-#include <set>
-#include <utility>
-#include <vector>
-
 namespace test_box_tree {
-
-namespace SG = CGAL::Spectral_geometry;
 
 TEST_CASE("A tree of boxes finds what looking at all of them finds, while they change")
 {

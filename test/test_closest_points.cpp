@@ -7,16 +7,8 @@
 #include "catch.h"
 #include "shapes.h"
 
-#include <algorithm>
-#include <limits>
-#include <random>
-
 namespace test_closest_points {
 
-namespace SG = CGAL::Spectral_geometry;
-
-using Catch::Approx;
-using Catch::Matchers::ContainsSubstring;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;

@@ -23,16 +23,6 @@
 #include "catch.h"
 #include "collapse_helpers.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <set>
-#include <utility>
-#include <vector>
-
 using namespace spectral_test;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
 using SMS::Spectral_options;

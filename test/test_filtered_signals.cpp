@@ -14,18 +14,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace test_filtered_signals {
 
-namespace SG = CGAL::Spectral_geometry;
-
-using Catch::Approx;
-using Catch::Matchers::ContainsSubstring;
 using SG::Filtered_signals;
 using SG::Laplace_operator;
 

@@ -19,21 +19,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numeric>
-#include <random>
-#include <set>
-#include <string>
-#include <vector>
-
 namespace test_fitted_operators {
 
 using namespace spectral_test;
-using Catch::Matchers::ContainsSubstring;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -110,7 +98,7 @@ void check_definite(const SG::Operator_fit_result& result, const Laplace_operato
 
 } // namespace
 
-TEST_CASE("Operators that are right already stay as they are", "[fitted_operators]")
+TEST_CASE("Operators that are right already stay as they are")
 {
   const shapes::Matrices mesh = shapes::icosphere_matrices(2); // all weights positive
   const Laplace_operator op = SG::laplace_operator(mesh.V, mesh.T, 0.5);
@@ -131,7 +119,7 @@ TEST_CASE("Operators that are right already stay as they are", "[fitted_operator
         1e-3); // bounds lift weights next to 0
 }
 
-TEST_CASE("Wrong entries are put right when P is the identity", "[fitted_operators]")
+TEST_CASE("Wrong entries are put right when P is the identity")
 {
   const shapes::Matrices mesh = shapes::icosphere_matrices(2);
   const Mass_pattern pattern = GENERATE(Mass_pattern::edges, Mass_pattern::diagonal);
@@ -159,7 +147,7 @@ TEST_CASE("Wrong entries are put right when P is the identity", "[fitted_operato
   CHECK(difference(result.op.B, op.B) < 1e-3);
 }
 
-TEST_CASE("Fitted operators keep the spectrum better than the mesh's own", "[fitted_operators]")
+TEST_CASE("Fitted operators keep the spectrum better than the mesh's own")
 {
   const Problem p = nested(2, 30);
   const auto own = judge(p, p.coarse);
@@ -219,7 +207,7 @@ TEST_CASE("The fit depends neither on the unit of length nor on the order of the
   CHECK(difference(Sparse(Q.transpose() * permuted.op.B * Q), result.op.B) < 1e-6);
 }
 
-TEST_CASE("The fit does not depend on the number of threads", "[fitted_operators]")
+TEST_CASE("The fit does not depend on the number of threads", "[slow]")
 {
   const Problem p = nested(4, 20); // rows enough for several ranges
   Operator_fit_options options;
@@ -232,7 +220,7 @@ TEST_CASE("The fit does not depend on the number of threads", "[fitted_operators
   CHECK(difference(three.op.B, one.op.B) == 0.);
 }
 
-TEST_CASE("Fitted operators are definite on hostile meshes", "[fitted_operators]")
+TEST_CASE("Fitted operators are definite on hostile meshes", "[slow]")
 {
   Operator_fit_options options;
   options.rings = GENERATE(1, 2);
@@ -285,7 +273,7 @@ TEST_CASE("Fitted operators are definite on hostile meshes", "[fitted_operators]
   }
 }
 
-TEST_CASE("A vertex of little mass that P reads elsewhere is not cut off", "[fitted_operators]")
+TEST_CASE("A vertex of little mass that P reads elsewhere is not cut off")
 {
   // A vertex in a corner of a face, with a thousandth of its area: the hoof of an animal, an eye.
   const Problem p = nested(2, 40);
@@ -318,7 +306,7 @@ TEST_CASE("A vertex of little mass that P reads elsewhere is not cut off", "[fit
   }
 }
 
-TEST_CASE("Where vertices are many P is taken as it is", "[fitted_operators]")
+TEST_CASE("Where vertices are many P is taken as it is")
 {
   // The own mode of every vertex lies far above ten eigenvalues.
   const Problem p = nested(3, 10);
@@ -327,7 +315,7 @@ TEST_CASE("Where vertices are many P is taken as it is", "[fitted_operators]")
   CHECK(judge(p, fit(p).op).norm_L < 0.75 * judge(p, p.coarse).norm_L);
 }
 
-TEST_CASE("Edges of next to no weight do not make up for negative ones", "[fitted_operators]")
+TEST_CASE("Edges of next to no weight do not make up for negative ones")
 {
   const shapes::Matrices grid = wavy_grid_matrices(9, 7);
   Problem p = of_itself(SG::laplace_operator(grid.V, grid.T, 0.5), 20);
@@ -355,7 +343,7 @@ TEST_CASE("Two rings stay linear in the degree of a vertex, and fit all the same
   CHECK(result.objective_after < 0.5 * result.objective_before);
 }
 
-TEST_CASE("Stopping early is said, and what there is can be used", "[fitted_operators]")
+TEST_CASE("Stopping early is said, and what there is can be used")
 {
   const Problem p = nested(2, 40);
   Operator_fit_options options;
@@ -374,7 +362,7 @@ TEST_CASE("Stopping early is said, and what there is can be used", "[fitted_oper
 
 // It solves this program with dense matrices: min |A x - b|^2 with bounds by projected gradients
 // with Nesterov's momentum.
-TEST_CASE("The fit agrees with an independent dense bounded solver", "[fitted_operators]")
+TEST_CASE("The fit agrees with an independent dense bounded solver")
 {
   Problem p = nested(1, 12);
   Operator_fit_options options;
@@ -485,7 +473,7 @@ TEST_CASE("The fit agrees with an independent dense bounded solver", "[fitted_op
   CHECK((area * B / total - MatrixXd(result.op.B)).norm() < 1e-3 * area * B.norm());
 }
 
-TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators]")
+TEST_CASE("What cannot be fitted is refused in one sentence")
 {
   const Problem good = nested(1, 10);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -544,7 +532,7 @@ TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators
   refused("Dirichlet");
 }
 
-TEST_CASE("Operators are fitted to the mesh that a run leaves", "[fitted_operators]")
+TEST_CASE("Operators are fitted to the mesh that a run leaves")
 {
   const shapes::Matrices input = wavy_grid_matrices(36, 32);
   Spectral_edge_collapse_options options; // best, with relocation
@@ -651,7 +639,7 @@ TEST_CASE_METHOD(Small_run,
         }) == Phases{SG::Phase::matching});
 }
 
-TEST_CASE("Runs of whose kind no operators can be fitted are refused", "[fitted_operators]")
+TEST_CASE("Runs of whose kind no operators can be fitted are refused")
 {
   const shapes::Matrices input = wavy_grid_matrices(12, 10);
   Spectral_edge_collapse_options options;

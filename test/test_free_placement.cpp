@@ -11,10 +11,6 @@
 
 #include <Eigen/LU>
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 namespace test_free_placement {
 
 using namespace spectral_test;

@@ -11,19 +11,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <random>
-#include <stdexcept>
-#include <vector>
-
 namespace test_functional_map {
 
-namespace SG = CGAL::Spectral_geometry;
-
-using Catch::Approx;
-using Catch::Matchers::ContainsSubstring;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;

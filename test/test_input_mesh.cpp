@@ -10,17 +10,10 @@
 
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace test_input_mesh {
 
-using Catch::Matchers::ContainsSubstring;
 using Indices = std::vector<std::size_t>;
 
 namespace {

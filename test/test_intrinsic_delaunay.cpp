@@ -15,23 +15,8 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace test_intrinsic_delaunay {
 
-namespace SG = CGAL::Spectral_geometry;
-
-using Catch::Approx;
-using Catch::Matchers::ContainsSubstring;
 using Eigen::Vector3d;
 using SG::Laplace_operator;
 using SG::Mass;

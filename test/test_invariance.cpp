@@ -11,15 +11,6 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numeric>
-#include <random>
-#include <set>
-#include <string>
-#include <vector>
-
 namespace test_invariance {
 
 using namespace spectral_test;

@@ -10,17 +10,9 @@
 #include "catch.h"
 #include "collapse_helpers.h"
 
-#include <algorithm>
-#include <memory>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 namespace test_kept_vertices {
 
 using namespace spectral_test;
-using Catch::Matchers::ContainsSubstring;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
 using Result = SMS::Spectral_edge_collapse_result;
 using SMS::Spectral_edge_collapse_options;

@@ -8,14 +8,6 @@
 #include "catch.h"
 #include "core_helpers.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <random>
-#include <utility>
-#include <vector>
-
 namespace test_kernel {
 
 using namespace spectral_test;

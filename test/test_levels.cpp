@@ -12,14 +12,9 @@
 #include "catch.h"
 #include "collapse_helpers.h"
 
-#include <algorithm>
-#include <stdexcept>
-#include <vector>
-
 namespace test_levels {
 
 using namespace spectral_test;
-using Catch::Matchers::ContainsSubstring;
 using Result = SMS::Spectral_edge_collapse_result;
 using SMS::Spectral_edge_collapse_options;
 using SMS::Spectral_placement_strategy;

@@ -16,17 +16,9 @@
 #include "catch.h"
 #include "collapse_helpers.h"
 
-#include <algorithm>
-#include <atomic>
-#include <cstddef>
-#include <memory>
 #include <new>
-#include <stdexcept>
 #include <system_error>
 #include <thread>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace test_lifetime {
 

@@ -8,12 +8,7 @@
 
 #include "catch.h"
 
-#include <memory>
-
 namespace test_memory_estimate {
-
-namespace SG = CGAL::Spectral_geometry;
-namespace SMS = CGAL::Surface_mesh_simplification;
 
 TEST_CASE("The memory estimate grows with the mesh and K, and shrinks with what is not needed")
 {

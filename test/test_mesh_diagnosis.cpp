@@ -12,17 +12,7 @@
 #include "catch.h"
 #include "shapes.h"
 
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace test_mesh_diagnosis {
-
-namespace SG = CGAL::Spectral_geometry;
-using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -297,7 +287,7 @@ TEST_CASE("A mesh is examined in the order of its vertices and faces, through it
 {
   using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
   Mesh mesh;
-  shapes::make_grid(mesh, 3, 2);
+  shapes::make_mesh(mesh, shapes::grid_matrices(3, 2));
   CGAL::Euler::remove_face(mesh.halfedge(*faces(mesh).begin()), mesh);
   mesh.add_vertex({9, 9, 9});
   const std::size_t n = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));

@@ -14,15 +14,6 @@
 
 #include <Eigen/QR>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <random>
-#include <utility>
-#include <vector>
-
 namespace test_mixtures {
 
 using namespace spectral_test;
@@ -134,8 +125,7 @@ Mesh simplified(const shapes::Matrices& input, const Spectral_edge_collapse_opti
 
 } // namespace
 
-TEST_CASE("The columns of mixtures are orthogonal, of one length, and the same for the same seed "
-          "everywhere")
+TEST_CASE("The columns of mixtures are orthogonal, of one length, and the same for the same seed")
 {
   const Eigen::Index r = GENERATE(1, 4, 16);
   const Eigen::MatrixXd R = random_mixtures(20, r, 5);

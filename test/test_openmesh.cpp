@@ -2,11 +2,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// OpenMesh as a mesh type. Built where SPECTRAL_TEST_OPENMESH is defined.
+// OpenMesh as a mesh type. Built where OpenMesh is found.
 
 #include "catch.h"
-
-#ifdef SPECTRAL_TEST_OPENMESH
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized" // OpenMesh's points are not, by default
@@ -61,12 +59,3 @@ TEST_CASE("OpenMesh after quadrics is what a replay of their log leaves")
   }
   CHECK(others == 0);
 }
-
-#else
-
-TEST_CASE("OpenMesh was not asked for")
-{
-  SUCCEED();
-}
-
-#endif

@@ -12,19 +12,9 @@
 #include "catch.h"
 #include "collapse_helpers.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace test_policies {
 
 using namespace spectral_test;
-using Catch::Matchers::ContainsSubstring;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
 using SMS::Spectral_options;
 using SMS::Spectral_placement_strategy;
@@ -456,58 +446,6 @@ TEST_CASE("Pairs of constants are left out of E: beside needles they hold someth
   basis.F.col(0).setZero();
   basis.Z.col(0).setZero();
   CHECK(relative_difference(policies.error(), energy(coarse, basis, P)) < 1e-4);
-}
-
-TEST_CASE("Options that cannot be used are refused in a sentence that names them")
-{
-  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1)); // 42 vertices
-  Spectral_options options = options_with(5);
-  std::string text;
-  SECTION("K zero")
-  {
-    options.number_of_eigenvectors = 0;
-    text = "number_of_eigenvectors is 0";
-  }
-  SECTION("K as large as the mesh")
-  {
-    options.number_of_eigenvectors = 42;
-    text = "from 1 to 41";
-  }
-  SECTION("no threads")
-  {
-    options.threads = 0;
-    text = "threads is 0";
-  }
-  SECTION("weights of another number")
-  {
-    options.weights = Eigen::VectorXd::Ones(4);
-    text = "4 weights for 5 signals";
-  }
-  SECTION("a negative weight")
-  {
-    options.weights = Eigen::VectorXd::Ones(5);
-    options.weights(3) = -1;
-    text = "weight 3 ";
-  }
-  SECTION("a weight that is not a number")
-  {
-    options.weights = Eigen::VectorXd::Ones(5);
-    options.weights(2) = std::nan("");
-    text = "weight 2 ";
-  }
-  SECTION("signals of another number of rows")
-  {
-    options.signals = Eigen::MatrixXd::Ones(41, 3);
-    text = "41 rows";
-  }
-  SECTION("signals that are not numbers")
-  {
-    options.signals = Eigen::MatrixXd::Ones(42, 3);
-    options.signals(7, 1) = std::nan("");
-    text = "not finite";
-  }
-  CHECK_THROWS_AS(Policies(mesh, options), std::invalid_argument);
-  CHECK_THROWS_WITH(Policies(mesh, options), ContainsSubstring(text));
 }
 
 TEST_CASE("Policies take their own eigenpairs back where all triangles are thin")

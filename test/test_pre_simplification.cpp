@@ -19,17 +19,9 @@
 #include "collapse_helpers.h"
 #include "topology.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <stdexcept>
-#include <vector>
-
 namespace test_pre_simplification {
 
 using namespace spectral_test;
-using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -378,7 +370,8 @@ TEST_CASE("F, Z and P follow collapses by quadrics ahead of the spectral cost")
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
   const Eigen::Index n = input.V.rows();
   SMS::Spectral_edge_collapse_options options = ahead_options();
-  const auto kind = GENERATE(as<std::string>(), "eigenvectors", "signals", "rough pairs");
+  const std::string kinds[] = {"eigenvectors", "signals", "rough pairs"},
+                    kind = kinds[GENERATE(0, 1, 2)];
   CAPTURE(kind);
   if(kind == "signals")
     options.signals = input.V.array().sin().matrix();
@@ -530,16 +523,6 @@ TEST_CASE("Quadrics are passed over where not all that was asked for could be ke
       [&](Options& o) { o.coefficients = SG::weighted_coefficients(ones, ones); }};
   changes[GENERATE(range(0, 9))](options);
   CHECK(quadric_collapses(none) == 0);
-}
-
-TEST_CASE("What cannot be times the target is refused")
-{
-  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));
-  SMS::Spectral_edge_collapse_options options = ahead_options();
-  options.quadrics_above = GENERATE(0.5, -1., std::numeric_limits<double>::quiet_NaN());
-  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options),
-                    ContainsSubstring("quadrics_above"));
-  CHECK(count_vertices(mesh) == 162);
 }
 
 TEST_CASE("A run that is cancelled while quadrics come first leaves the mesh as it was, later what "

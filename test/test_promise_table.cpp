@@ -19,20 +19,6 @@
 #include "catch.h"
 #include "collapse_helpers.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <fstream>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <set>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace test_promise_table {
 
 using namespace spectral_test;
@@ -384,7 +370,6 @@ TEST_CASE("each promise holds where the table says so, and nowhere else", "[slow
 
 namespace {
 
-// A sheet with a border for what is about that, else a sphere.
 struct Preset
 {
   const char* name;
@@ -612,7 +597,7 @@ std::string table_of_options()
 
 } // namespace
 
-TEST_CASE("an option is heeded in a preset, or refused")
+TEST_CASE("an option is heeded in a preset, or refused", "[slow]")
 {
   const Option& option = option_rows[GENERATE(range(std::size_t(0), std::size(option_rows)))];
   for(std::size_t k = 0; k < std::size(presets); ++k) {

@@ -19,17 +19,10 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <limits>
-#include <string>
-#include <vector>
 
 namespace test_readers {
-
-using Catch::Matchers::ContainsSubstring;
 
 namespace {
 

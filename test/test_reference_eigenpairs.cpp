@@ -13,12 +13,7 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
-#include <cmath>
-
 namespace test_reference_eigenpairs {
-
-namespace SG = CGAL::Spectral_geometry;
 
 TEST_CASE("The block method agrees with the reference at every tolerance")
 {

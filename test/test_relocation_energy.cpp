@@ -14,14 +14,6 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace test_relocation_energy {
 
 using namespace spectral_test;
@@ -30,8 +22,8 @@ using Rows = SG::Position_dependent_signals::Rows;
 
 namespace {
 
-// Quadratic functions of the position.
-class Polynomial_signals : public SG::Position_dependent_signals
+// Functions of the position of which everything is known.
+class Plane_waves : public SG::Position_dependent_signals
 {
 public:
   void evaluate(const Positions& V, Rows& F, Rows& Z) override
@@ -140,7 +132,7 @@ TEST_CASE("inner products of moving signals are compared with those of the fine 
   const Simplified_mesh& s = open_example();
   const SG::Laplace_operator op = SG::laplace_operator(s.coarse.V, s.coarse.T, 0.5),
                              fine = SG::laplace_operator(s.fine.V, s.fine.T, 0.5);
-  Polynomial_signals moving;
+  Plane_waves moving;
   Rows F, Z;
   moving.evaluate(s.coarse.V, F, Z);
   const Eigen::MatrixXd on_coarse = F;
@@ -179,7 +171,7 @@ TEST_CASE("gradients agree with finite differences, in every mass, with a bounda
       CHECK(gradient_error(plain, V) < 1e-6);
       SG::Relocation_energy smoothed(s->coarse.T, F, Z, theta, 0.02, 0.5);
       CHECK(gradient_error(smoothed, V) < 1e-6);
-      Polynomial_signals moving;
+      Plane_waves moving;
       SG::Relocation_energy both(s->coarse.T, F, Z, theta, 0.02, 0.5, &moving);
       CHECK(gradient_error(both, V) < 1e-6);
       SG::Relocation_energy moving_alone(s->coarse.T, F.leftCols(0), Z.leftCols(0), theta, 0.02, 0.,

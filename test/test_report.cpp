@@ -17,12 +17,6 @@
 
 #include <Eigen/QR>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 namespace test_report {
 
 namespace {

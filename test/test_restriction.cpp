@@ -6,19 +6,8 @@
 
 #include "catch.h"
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <stdexcept>
-#include <vector>
-
 namespace test_restriction {
 
-namespace SG = CGAL::Spectral_geometry;
-
-using Catch::Approx;
-using Catch::Matchers::ContainsSubstring;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;

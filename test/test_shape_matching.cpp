@@ -17,20 +17,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
-#include <atomic>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <vector>
-
 namespace test_shape_matching {
-
-using Catch::Approx;
-using Catch::Matchers::ContainsSubstring;
-
-namespace SG = CGAL::Spectral_geometry;
-namespace SMS = CGAL::Surface_mesh_simplification;
 
 namespace {
 

@@ -14,15 +14,8 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-#include <cmath>
-#include <random>
-#include <stdexcept>
-#include <vector>
-
 namespace test_supernodal_factor {
 
-namespace SG = CGAL::Spectral_geometry;
-using Catch::Matchers::ContainsSubstring;
 using Sparse = Eigen::SparseMatrix<double>;
 using SG::internal::Panel;
 using SG::internal::Supernodal_factor;

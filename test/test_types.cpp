@@ -16,12 +16,6 @@
 #include "catch.h"
 #include "collapse_helpers.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
-
 namespace test_types {
 
 using namespace spectral_test;

@@ -15,20 +15,11 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <numeric>
-#include <sstream>
-#include <string>
-#include <vector>
 
 namespace test_vertex_attributes {
 
 using Values = std::vector<double>;
-using Catch::Matchers::ContainsSubstring;
 using Kind = Attribute::Kind;
 
 namespace {
@@ -421,7 +412,7 @@ TEST_CASE("A vertex that comes closer to the other side of a seam keeps to its o
   }
 }
 
-TEST_CASE("Seams stay, and both sides keep their coordinates")
+TEST_CASE("Seams stay, and both sides keep their coordinates", "[slow]")
 {
   namespace SMS = CGAL::Surface_mesh_simplification;
   const int n = 40, m = 20;

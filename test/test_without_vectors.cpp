@@ -12,10 +12,6 @@
 #include "catch.h"
 #include "core_helpers.h"
 
-#include <cstdint>
-#include <random>
-#include <type_traits>
-
 using namespace spectral_test;
 using SMS::Spectral_placement_strategy;
 

@@ -10,15 +10,31 @@
 // INFO is printed. A test case is run again until each of its SECTIONs and each value of its
 // GENERATEs had its turn, in all combinations.
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
 #include <functional>
 #include <initializer_list>
 #include <iostream>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace plain_test {
@@ -66,6 +82,25 @@ template <class T>
 T generate(std::initializer_list<T> values)
 {
   return values.begin()[choose(values.size())];
+}
+
+template <class T>
+struct Range
+{
+  T begin, end;
+};
+
+template <class T>
+Range<T> range(const T begin, const T end)
+{
+  return {begin, end};
+}
+
+template <class T>
+T generate(std::initializer_list<Range<T>> values) // of one
+{
+  return values.begin()->begin +
+         T(choose(std::size_t(values.begin()->end - values.begin()->begin)));
 }
 
 class Section // entered, unless it had its turn, or another of this depth has it
@@ -231,6 +266,15 @@ inline int run_all()
     if(!spectral_test_thrown)                                                     \
       plain_test::check(false, #expression " throws " #type, __FILE__, __LINE__); \
   } while(false)
+
+namespace CGAL::Spectral_geometry {}
+namespace CGAL::Surface_mesh_simplification {}
+namespace SG = CGAL::Spectral_geometry;
+namespace SMS = CGAL::Surface_mesh_simplification;
+
+using plain_test::Approx;
+using plain_test::ContainsSubstring;
+using plain_test::range;
 
 int main()
 {
