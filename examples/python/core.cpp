@@ -286,10 +286,6 @@ py::dict simplify(const Arguments& a)
                                : py::object(py::none());
   result["fitted"] = run.fitted ? py::cast(std::move(*run.fitted)) : py::object(py::none());
   result["collapses"] = records(run.result.log);
-  for(const std::string& warning : run.result.warnings)
-    warn(warning);
-  if(!run.result.explanation.empty())
-    warn(run.result.explanation);
   return result;
 }
 

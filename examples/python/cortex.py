@@ -79,8 +79,8 @@ def folded_sphere(levels=4):
 
 
 def errors(values, fine, k):
-    """Relative errors of the eigenvalues 2 to k."""
-    return abs(values[1:k] / fine.values[1:k] - 1)
+    """Relative errors of the eigenvalues up to k, without those that are zero."""
+    return abs(values[fine.zeros : k] / fine.values[fine.zeros : k] - 1)
 
 
 def compared(run, modes, first, mass="consistent"):
@@ -119,13 +119,13 @@ def figure(path, run, fine, coarse, errors_by_k):
     aligned = ss.align(coarse, fine, run.P[:, run.used])
     surfaces = ((*run.part(), aligned.vectors), (run.V, run.F, coarse.vectors))
     picture = plt.figure(figsize=(13, 6))
-    modes = [m for m in (2, 6, 20, 50) if m < coarse.vectors.shape[1]]
+    modes = [m for m in (2, 6, 20, 50) if m <= coarse.vectors.shape[1]]
     for row, (V, F, vectors) in enumerate(surfaces):
         for column, mode in enumerate(modes):
             axes = picture.add_subplot(
                 2, len(modes) + 1, row * (len(modes) + 1) + column + 1, projection="3d"
             )
-            value = vectors[:, mode][F].mean(axis=1)
+            value = vectors[:, mode - 1][F].mean(axis=1)  # counted from 1, as in the text
             drawn = axes.plot_trisurf(
                 *V.T, triangles=F, cmap="RdBu", linewidth=0, antialiased=False
             )
@@ -137,7 +137,7 @@ def figure(path, run, fine, coarse, errors_by_k):
             axes.set_title(f"mode {mode}, {len(V)} vertices", fontsize=8)
     axes = picture.add_subplot(1, len(modes) + 1, len(modes) + 1)
     for k, e in errors_by_k.items():
-        axes.semilogy(range(2, k + 1), 100 * e, label=f"K = {k}")
+        axes.semilogy(range(k - len(e) + 1, k + 1), 100 * e, label=f"K = {k}")
     axes.set_xlabel("mode")
     axes.set_title("error of the eigenvalue, %", fontsize=8)
     axes.legend()
@@ -150,16 +150,14 @@ def main(arguments=None):
     parser.add_argument(
         "--surface", help="GIFTI, VTK, or what read_mesh() takes; a folded sphere without"
     )
-    parser.add_argument(
-        "--mask", help="text: 1 for each vertex of the cortex, 0 for the medial wall"
-    )
+    parser.add_argument("--mask", help="what read_mask() takes: which vertices are cortex")
     parser.add_argument(
         "--eigenvalues", help="text: published ones of the masked surface, to compare with"
     )
     parser.add_argument(
         "--other", nargs="*", default=[], help="surfaces of the subject, such as the pial one"
     )
-    parser.add_argument("--vertices", type=int, default=2000)
+    parser.add_argument("--vertices", type=int, help="2000; of the folded sphere 600")
     parser.add_argument(
         "--modes", type=int, nargs="+", default=[100], help="K; several for one curve each"
     )
@@ -169,13 +167,14 @@ def main(arguments=None):
     if a.surface is None and a.mask is not None:
         parser.error("--mask is that of a surface: give --surface as well.")
     out = pathlib.Path(a.output)
+    target = a.vertices or (600 if a.surface is None else 2000)
 
     others = {}
     if a.surface is None:
         V, F, others["sphere"], mask = folded_sphere()
     else:
         V, F = ss.read_mesh(a.surface)
-        mask = None if a.mask is None else np.loadtxt(a.mask) != 0
+        mask = None if a.mask is None else ss.read_mask(a.mask, len(V))
     for name in a.other:
         positions, faces = ss.read_mesh(name)
         if not np.array_equal(faces, F):
@@ -187,7 +186,7 @@ def main(arguments=None):
 
     curves = {}
     for k in a.modes:
-        run = ss.simplify(V, F, a.vertices, k, mass=a.mass, mask=mask)
+        run = ss.simplify(V, F, target, k, mass=a.mass, mask=mask)
         first = min(50, k)
         fine, coarse, own, fitted = compared(run, k, first)
         curves[k] = errors(own.values, fine, k)
@@ -207,17 +206,18 @@ def main(arguments=None):
         n = min(len(published), len(fine))
         print(
             f"  published eigenvalues agree with the full surface within "
-            f"{100 * abs(fine.values[1:n] / published[1:n] - 1).max():.3f} %"
+            f"{100 * errors(published, fine, n).max():.3f} %"
         )
 
     labels = parcels(V, run.used)
     carried = run.transfer_labels(labels, by="area")
-    sizes = np.bincount(labels[run.used], minlength=40) / len(run.used)
-    small = np.bincount(carried, minlength=40) / len(carried)
+    sizes, small = (
+        np.bincount(of, np.asarray(pairs.M.sum(axis=1)).ravel() / pairs.M.sum(), minlength=40)
+        for of, pairs in ((labels[run.used], fine), (carried, own))
+    )
     print(
-        f"  {len(np.unique(carried))} of 40 parcels carried, sizes off by "
-        f"{100 * abs(small - sizes).max():.1f} % "
-        "of all at most"
+        f"  {len(np.unique(carried))} of 40 parcels carried, their areas off by "
+        f"{100 * abs(small - sizes).max():.2f} % of all at most"
     )
     for name, positions in others.items():
         ss.write_mesh(out / f"cortex_{name}.off", run.apply(positions).V, run.F)
@@ -231,4 +231,7 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (ValueError, OSError) as error:
+        raise SystemExit(f"cortex.py: {error}") from None

@@ -83,6 +83,14 @@ inline Polygon_soup soup_of(const Arguments& a)
   return soup;
 }
 
+inline py::list list_of(const std::vector<Repair>& changes)
+{
+  py::list result;
+  for(const Repair& change : changes)
+    result.append(to_string(change.count) + " " + change.what());
+  return result;
+}
+
 // What the programs do with a mesh that they read.
 inline py::dict clean(const Arguments& a)
 {
@@ -113,19 +121,16 @@ inline py::dict clean(const Arguments& a)
                         : std::int64_t(input.numbering.mesh_vertex(v)));
   for(std::size_t w = 0; w < input.numbering.number_of_mesh_vertices(); ++w)
     origin.push_back(std::int64_t(input.numbering.file_vertex(w)));
-  py::list changes;
-  for(const Repair& change : input.changes)
-    changes.append(to_string(change.count) + " " + change.what());
   py::dict result;
   result["V"] = py::cast(Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>(mesh.V));
   result["F"] = py::cast(Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>(mesh.T));
   result["place"] = array_of(place);
   result["origin"] = array_of(origin);
-  result["changes"] = changes;
+  result["changes"] = list_of(input.changes);
   return result;
 }
 
-// The triangles of a file, or what --repair makes of it.
+// The triangles of a file, or what --repair makes of it, and what that changed.
 inline py::tuple read_mesh(const std::string& path, const bool repair)
 {
   Polygon_soup soup;
@@ -145,7 +150,7 @@ inline py::tuple read_mesh(const std::string& path, const bool repair)
   }
   if(repair) {
     const SG::Mesh_matrices mesh = SG::mesh_matrices(input.mesh);
-    return py::make_tuple(mesh.V, mesh.T);
+    return py::make_tuple(mesh.V, mesh.T, list_of(input.changes));
   }
   py::array_t<double> V({py::ssize_t(soup.points.size()), py::ssize_t(3)});
   py::array_t<std::int64_t> F({py::ssize_t(soup.polygons.size()), py::ssize_t(3)});
@@ -160,7 +165,7 @@ inline py::tuple read_mesh(const std::string& path, const bool repair)
       F.mutable_at(py::ssize_t(f), py::ssize_t(i)) =
           soup.polygons[f][i] == no_vertex ? -1 : std::int64_t(soup.polygons[f][i]);
   }
-  return py::make_tuple(V, F);
+  return py::make_tuple(V, F, py::list());
 }
 
 inline py::dict diagnosis_of(const Arguments& a)

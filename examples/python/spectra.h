@@ -258,6 +258,10 @@ inline py::dict evaluate(const Arguments& a)
          "Vc, and is "
          "Vc where "
          "V is and in its unit?");
+  if(SG::internal::boundary_edges(fine.T).empty() &&
+     !SG::internal::boundary_edges(coarse.T).empty())
+    warn(
+        "Vc, Fc has a border, and V, F has none: after mask= pass *run.part() and P[:, run.used].");
   const SMS::Spectral_options of = operator_options(a, n);
   SMS::Spectral_options of_coarse = of;
   if(a.has("coarse_coefficients") && !a.has("coefficients"))

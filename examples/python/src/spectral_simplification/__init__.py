@@ -40,7 +40,7 @@ from ._maps import (
     point_map,
     zoom_out,
 )
-from ._meshes import Cleaned, Diagnosis, clean, diagnose, read_mesh, write_mesh
+from ._meshes import Cleaned, Diagnosis, clean, diagnose, read_mask, read_mesh, write_mesh
 from ._results import (
     Alignment,
     Eigenpairs,
@@ -81,6 +81,7 @@ __all__ = [
     "load",
     "match",
     "point_map",
+    "read_mask",
     "read_mesh",
     "rows_off_their_part",
     "simplify",

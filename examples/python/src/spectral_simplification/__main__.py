@@ -20,9 +20,9 @@ from typing import Any
 import numpy
 import scipy.io
 
-from . import __version__, clean, evaluate, read_mesh, simplify, write_mesh
+from . import __version__, clean, evaluate, read_mask, simplify, write_mesh
 from ._interface import _features
-from ._meshes import _check_ending
+from ._meshes import _check_ending, _numbers, _read_mesh
 from ._results import _check_folder, _written
 
 
@@ -114,7 +114,7 @@ def _arguments() -> argparse.ArgumentParser:
     add(
         "--mask",
         metavar="FILE",
-        help="0 or 1 for each vertex of IN, as text or .npy: those that take part",
+        help="those that take part: 0 or 1 for each vertex of IN (text, .npy, .gii), or a .label",
     )
     add("--save", metavar="FILE.npz", help="the whole result, for load()")
     add("--version", action="version", version=__version__)
@@ -155,23 +155,6 @@ def _kept(words: str | None) -> list | None:
     ]
 
 
-def _numbers(path: str, kind: type) -> numpy.ndarray:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")  # of no numbers, and of integers with a fraction
-            numbers = (
-                numpy.load(path, allow_pickle=False)
-                if path.endswith(".npy")
-                else numpy.loadtxt(path, kind, ndmin=1)
-            )
-        if not isinstance(numbers, numpy.ndarray) or numbers.dtype.kind not in "biuf":
-            raise ValueError("it holds no array of numbers")
-        return numbers
-    except (ValueError, Warning) as error:
-        said = str(error).partition("\n")[0].rstrip(".")
-        raise ValueError(f"{path} cannot be read: {said}.") from None
-
-
 def _finite(value: Any) -> Any:
     """For JSON, which has no NaN: null."""
     if isinstance(value, dict):
@@ -210,7 +193,8 @@ def _run(a: argparse.Namespace) -> None:
             "--repair renumbers vertices, and --restriction, --prolongation and --map number those "
             "of IN: repair first."
         )
-    V, F = read_mesh(a.IN, a.repair and own)
+    changes: list[str] = []
+    V, F = _read_mesh(a.IN, a.repair and own, changes)
     cleaned = None
     if a.mask is None and _features(keep)[1] is None and a.signals is None:
         cleaned = clean(V, F, a.repair and not own)
@@ -246,15 +230,13 @@ def _run(a: argparse.Namespace) -> None:
         signals=None if a.signals is None else _numbers(a.signals, float),
     )
     if a.mask is not None:
-        mask = _numbers(a.mask, float)
-        if not numpy.isin(mask, (0, 1)).all():
-            raise ValueError(f"{a.mask} must hold 0 or 1 for each vertex.")
-        options["mask"] = mask.astype(bool)
+        options["mask"] = read_mask(a.mask, len(V))
     given = (V, F) if cleaned is None else (cleaned.V, cleaned.F)
     run = simplify(*given, _number(a.vertices, len(given[0])), **options)
+    changes += [] if cleaned is None else cleaned.changes
+    if changes and not a.quiet:
+        print(f"{a.IN}: {', '.join(changes)}.", file=sys.stderr)
     if cleaned is not None and cleaned.changes:
-        if not a.quiet:
-            print(f"{a.IN}: {', '.join(cleaned.changes)}.", file=sys.stderr)
         is_one_to_one = len(numpy.unique(cleaned.origin)) == len(cleaned.origin)
         if is_one_to_one or a.restriction or a.prolongation or a.map or a.save:
             run = run._renumbered(V, cleaned.place, cleaned.origin)

@@ -23,7 +23,7 @@ import numpy
 from ._core import Wrong_type as _Wrong_type
 from ._core import arrays as _arrays
 from ._interface import _features, eigenpairs, simplify
-from ._meshes import _OWN, clean, read_mesh
+from ._meshes import _OWN, _read_mesh, clean
 from ._results import (
     Level,
     Simplification,
@@ -86,10 +86,12 @@ def _of_own_format(mesh: Any) -> bool:
     return isinstance(mesh, (str, os.PathLike)) and pathlib.Path(mesh).suffix.lower() in _OWN
 
 
-def _taken(mesh: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.ndarray]:
+def _taken(
+    mesh: Any, repair: bool = False, said: list | None = None
+) -> tuple[numpy.ndarray, numpy.ndarray]:
     """V and F of an item, which may be a file's name."""
     if isinstance(mesh, (str, os.PathLike)):
-        return read_mesh(mesh, repair and _of_own_format(mesh))
+        return _read_mesh(mesh, repair and _of_own_format(mesh), said)
     if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
         raise _Wrong_type(
             f"a mesh is of the type {type(mesh).__name__}, it must be the name of a file or a "
@@ -109,11 +111,13 @@ def _numbering(options: dict[str, Any]) -> list[str]:
 
 def _one(mesh: Any, n: int, repair: bool, options: dict[str, Any]) -> Simplification:
     """A mesh as it comes: cleaned as the programs do, and numbered as it came."""
-    V, F = _taken(mesh, repair)
+    changes: list[str] = []
+    V, F = _taken(mesh, repair, changes)
     if _numbering(options):
         return simplify(V, F, n, **options)
     cleaned = clean(V, F, repair and not _of_own_format(mesh))
     run = simplify(cleaned.V, cleaned.F, n, **options)
+    run.report["changes"] = changes + cleaned.changes
     return (
         run._renumbered(numpy.array(V, float), cleaned.place, cleaned.origin)
         if cleaned.changes

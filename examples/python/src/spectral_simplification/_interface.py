@@ -7,6 +7,8 @@
 
 from __future__ import annotations
 
+import re
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -23,9 +25,25 @@ from ._results import (
     Progress,
     Simplification,
     _array,
+    _diagonal,
     _flag,
     _rectangular,
 )
+
+
+def _renumbered(sentence: str, used: numpy.ndarray, faces: int | None) -> str:
+    """Names vertices by their numbers in V, not among those that were used; `faces`: how many were,
+    where these are not all."""
+
+    def of_all(found):
+        number = int(found[2])
+        return f"{found[1]}{used[number] if number < len(used) else number}"
+
+    sentence = re.sub(r"\b(vertex |vertices )(\d+)", of_all, sentence)
+    sentence = re.sub(r"\b(vertices \d+ and )(\d+)", of_all, sentence)
+    if faces is not None and re.search(r"\bface \d", sentence):
+        sentence += f" Faces are counted among the {faces} that take part."
+    return sentence
 
 
 def _features(keep) -> tuple[list[str], list | None]:
@@ -117,9 +135,9 @@ def simplify(
         once, True for each, 'border', or 'sharp:ANGLE', those of edges where the normals of both
         faces are ANGLE degrees apart, and corners of the border
     mask : array of bool, optional
-        (v,), True for the vertices of V that take part, such as a cortex without its medial wall:
-        faces stay where all their corners do. The result is numbered as V, columns of P are empty
-        elsewhere
+        (v,), True or 1 for the vertices of V that take part, such as a cortex without its medial
+        wall: faces stay where all their corners do. The result is numbered as V, columns of P are
+        empty elsewhere
     drop_debris : float, optional
         leaves out components of less than this share of the area, in (0, 1): among many crumbs a
         body ends as a tetrahedron. report['left_out'] has their first vertices
@@ -200,6 +218,7 @@ def simplify(
         values["k"] = 100
     used = None
     fine_V, fine_F = _core.arrays(dict(V=V, F=F))
+    all_faces = len(fine_F)
     part = used_part(fine_V, fine_F, mask)
     left_out = numpy.empty(0, numpy.int64)
     if drop_debris is not None:
@@ -226,20 +245,28 @@ def simplify(
                     "leave it out."
                 )
             values["keep"] = numpy.searchsorted(used, keep)
+    faces = len(fine_F) if len(fine_F) < all_faces else None
     try:
         core = _core.simplify(values)
     except ValueError as error:
         if used is None:
             raise
-        raise type(error)(
-            f"{error} Vertices are counted among the {len(used)} that faces use."
-        ) from None
+        said = _renumbered(str(error), used, faces)
+        if mask is not None and "touch in a single vertex" in said:
+            said += " If it is the mask that parts them, leave the vertex out by it, too."
+        raise type(error)(said) from None
+    report = core["report"]
+    if used is not None:
+        report["warnings"] = [_renumbered(w, used, faces) for w in report["warnings"]]
+    for said in [*report["warnings"], report["explanation"]]:
+        if said:
+            warnings.warn(said, stacklevel=2)
     pairs = (
         eigenpairs
         if eigenpairs is not None
         else core["eigenpairs"] and Eigenpairs(core["eigenpairs"])
     )
-    core["report"]["left_out"] = left_out.tolist()
+    report["left_out"] = left_out.tolist()
     kept = core["vertex_map"][core["kept"]]
     asked = dict(
         boundary=boundary,
@@ -257,7 +284,7 @@ def simplify(
         eigenpairs=pairs,
         coefficients=core["coefficients"],
         fitted=core["fitted"] and Fitted_operators(core["fitted"]),
-        report=core["report"],
+        report=report,
         collapses=core["collapses"],
         _asked=asked,
     )
@@ -325,13 +352,14 @@ def eigsh(
     ----------
     L : (n, n) sparse matrix
         Symmetric, positive semidefinite, in any unit.
-    M : (n, n) sparse matrix, optional
-        Symmetric, positive definite, with positive row sums: a mass matrix. None: the identity.
+    M : (n, n) sparse matrix or (n,) array, optional
+        Symmetric, positive definite, with positive row sums: a mass matrix, or its diagonal. None:
+        the identity.
     k : int
         From 1 to n.
     tolerance : float
-        Of the residuals, relative to the size of the eigenvalues; a warning says where it is not
-        reached.
+        Of the residuals, relative to the size of the eigenvalues. Matrices that are rounded, to
+        float32 for instance, need a larger one.
     threads : int, optional
         All cores by default; the result does not depend on it.
     progress : function, optional
@@ -347,7 +375,10 @@ def eigsh(
     Raises
     ------
     ValueError
-        If a matrix is not symmetric, or M has a row without positive sum, in one sentence.
+        If a matrix is not symmetric, L has a negative eigenvalue, or M has a row without positive
+        sum, in one sentence.
+    RuntimeError
+        If the tolerance is not reached.
 
     Examples
     --------
@@ -365,8 +396,9 @@ def eigsh(
             f"L is of the type {type(L).__name__}, it must be a sparse matrix: pass "
             "scipy.sparse.csr_matrix(L)."
         )
-    if M is None:
-        M = scipy.sparse.identity(L.shape[0], format="csr")
+    if isinstance(M, (int, numpy.integer)):
+        raise _core.Wrong_type("M is a number, it must be a sparse matrix: call eigsh(L, M, k).")
+    M = _diagonal(scipy.sparse.identity(L.shape[0], format="csr") if M is None else M)
     pairs = _core.eigsh(locals())
     return numpy.array(pairs.values), numpy.array(pairs.vectors)
 
@@ -628,7 +660,7 @@ def distances(
     kind : str
         'diffusion', 'biharmonic' or 'commute_time', or 'wave_kernel'
     time : float, optional
-        of 'diffusion', in the unit of area; 1 / (4 lambda_1)
+        of 'diffusion', in the unit of area; 1 / (4 lambda_2), the first that is not zero
     energies : tuple, optional
         of 'wave_kernel', (t_min, t_max, sigma, steps); wave_kernel_energies(eigenpairs)
     squared : bool, optional

@@ -17,7 +17,7 @@ from . import _core
 from ._results import (
     Alignment,
     Eigenpairs,
-    Simplification,
+    Level,
     _array,
     _check_entries,
     _integer,
@@ -35,11 +35,11 @@ def _pairs(name: str, value) -> Eigenpairs:
     return value
 
 
-def _run(name: str, value) -> Simplification:
-    if not isinstance(value, Simplification):
+def _run(name: str, value) -> Level:
+    if not isinstance(value, Level):
         raise _core.Wrong_type(
-            f"{name} is of the type {type(value).__name__}, it must be a Simplification: pass "
-            "what simplify() returns."
+            f"{name} is of the type {type(value).__name__}, it must be a Simplification or a "
+            "Level: pass what simplify() or apply() returns."
         )
     return value
 
@@ -150,7 +150,8 @@ def zoom_out(
     k : int, optional
         Modes at the end; as many as both have.
     step : int
-        How many are added each time.
+        How many are added each time. Each step searches all vertices of both meshes: 10 takes a
+        tenth of the time of 1, and errs as much.
     threads : int, optional
         All cores by default.
 
@@ -186,8 +187,8 @@ def zoom_out(
 
 def lift_functional_map(
     C: numpy.ndarray,
-    source: Simplification,
-    target: Simplification,
+    source: Level,
+    target: Level,
     source_eigenpairs: Eigenpairs,
     target_eigenpairs: Eigenpairs,
     tolerance: float = 0.05,
@@ -199,8 +200,8 @@ def lift_functional_map(
     ----------
     C : (k_target, k_source) array
         Between the simplified meshes, in the eigenpairs that are given.
-    source, target : Simplification
-        What simplify() returned for both.
+    source, target : Level
+        What simplify() or apply() returned for both.
     source_eigenpairs, target_eigenpairs : Eigenpairs
         Of the simplified meshes, such as run.coarse_eigenpairs().
     tolerance : float
@@ -243,8 +244,8 @@ def lift_functional_map(
 
 def lift_point_map(
     T: numpy.ndarray,
-    source: Simplification,
-    target: Simplification,
+    source: Level,
+    target: Level,
     k: int | None = None,
     threads: int | None = None,
 ) -> numpy.ndarray:
@@ -255,8 +256,8 @@ def lift_point_map(
     ----------
     T : (vertices of target.V,) integers
         For each the vertex of source.V.
-    source, target : Simplification
-        What simplify() or load() returned for both.
+    source, target : Level
+        What simplify(), apply() or load() returned for both.
     k : int, optional
         How many modes; as many as both runs kept. Time grows with both inputs' vertices and k.
     threads : int, optional

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import base64
 import numbers
+import os
 import pathlib
+import warnings
 import xml.etree.ElementTree
 import zlib
 from typing import Any
@@ -22,6 +24,7 @@ from ._results import (
     _array,
     _check_folder,
     _flag,
+    _integer,
     _path,
     _rectangular,
     _Result,
@@ -175,10 +178,23 @@ def used_part(
         return None
     if mask is not None:
         mask = _rectangular("mask", mask)
+        if mask.dtype.kind in "iuf":
+            other = numpy.flatnonzero((mask != 0) & (mask != 1))
+            if other.size and mask.dtype.kind != "f":
+                raise ValueError(
+                    f"mask has the entry {mask.flat[other[0]]}, it must hold True for vertices "
+                    "that stay: of their indices make m = numpy.zeros(len(V), bool); m[mask] = True."
+                )
+            if other.size:
+                raise ValueError(
+                    f"mask[{other[0]}] is {mask.flat[other[0]]}, it must be 1 for a vertex that "
+                    "stays and 0 for others."
+                )
+            mask = mask.astype(bool)
         if mask.dtype.kind != "b":
             raise ValueError(
                 f"mask has the dtype {mask.dtype}, it must hold booleans, True for vertices "
-                "that stay: pass mask != 0."
+                "that stay."
             )
         if mask.shape != (len(V),):
             raise ValueError(
@@ -298,6 +314,13 @@ def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.nda
     FileNotFoundError
         If there is no such file.
     """
+    return _read_mesh(path, repair)
+
+
+def _read_mesh(
+    path: Any, repair: bool = False, said: list | None = None
+) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """read_mesh(), and adds what the repair changed to `said`."""
     path = pathlib.Path(_path(path))
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist.")
@@ -309,7 +332,10 @@ def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.nda
         )
     try:
         if ending in _OWN:
-            return _mesh(*_core.read_mesh(str(path), repair), path)
+            V, F, changes = _core.read_mesh(str(path), repair)
+            if said is not None:
+                said.extend(changes)
+            return _mesh(V, F, path)
         if ending == ".gii":
             arrays = _needed("nibabel", path).load(str(path))
             sets = [arrays.agg_data(intent) for intent in ("pointset", "triangle")]
@@ -332,9 +358,9 @@ def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.nda
                     raise ValueError(f"it has faces of the kind {kind}: triangulate them first")
             return _mesh(mesh.points, mesh.cells_dict.get("triangle", ()), path)
     except ValueError as error:
-        said = str(error)
+        why = str(error)
         raise ValueError(
-            said if str(path) in said else f"{path} cannot be read: {said.rstrip('.')}."
+            why if str(path) in why else f"{path} cannot be read: {why.rstrip('.')}."
         ) from None
     except SystemExit:
         raise ValueError(f"{path} cannot be read: meshio does not know what is in it.") from None
@@ -359,6 +385,73 @@ def _check_ending(path: pathlib.Path) -> str:
     if ending not in _OWN + _FREESURFER + _MESHIO + (".gii", ".vtp"):
         raise ValueError(_unknown(path))
     return ending
+
+
+def _numbers(path: str, kind: type) -> numpy.ndarray:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # of no numbers, and of integers with a fraction
+            numbers = (
+                numpy.load(path, allow_pickle=False)
+                if path.endswith(".npy")
+                else numpy.loadtxt(path, kind, ndmin=1)
+            )
+        if not isinstance(numbers, numpy.ndarray) or numbers.dtype.kind not in "biuf":
+            raise ValueError("it holds no array of numbers")
+        return numbers
+    except (ValueError, Warning) as error:
+        said = str(error).partition("\n")[0].rstrip(".")
+        raise ValueError(f"{path} cannot be read: {said}.") from None
+
+
+def read_mask(path: Any, n: int) -> numpy.ndarray:
+    """Reads which vertices take part, for mask=.
+
+    Parameters
+    ----------
+    path : str or path
+        Text or .npy with 1 for each vertex that takes part and 0 for the others; .gii with such
+        values, or labels that are 0 elsewhere; a .label of FreeSurfer, which names those that take
+        part. The last two through nibabel.
+    n : int
+        The number of vertices.
+
+    Returns
+    -------
+    (n,) array of bool
+        True for the vertices that take part.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, holds other numbers, or is of another number of vertices.
+    FileNotFoundError
+        If there is no such file.
+    """
+    path, n = _path(path), _integer("n", n, 1)
+    if not os.path.exists(path):
+        raise FileNotFoundError(f"{path} does not exist.")
+    try:
+        if path.endswith(".label"):
+            _needed("nibabel", path)
+            from nibabel.freesurfer import read_label
+
+            named = read_label(path)
+            found = numpy.isin(numpy.arange(max(n, named.max() + 1)), named)
+        elif path.endswith(".gii"):
+            found = numpy.asarray(_needed("nibabel", path).load(path).agg_data())
+            found = found != 0 if found.dtype.kind in "iu" else found
+        else:
+            found = _numbers(path, float)
+    except ValueError:
+        raise
+    except Exception as error:
+        raise ValueError(f"{path} cannot be read: {type(error).__name__}, {error}.") from None
+    if found.shape != (n,):
+        raise ValueError(f"{path} has the shape {found.shape}, it must be ({n},).")
+    if not numpy.isin(found, (0, 1)).all():
+        raise ValueError(f"{path} must hold 0 or 1 for each vertex.")
+    return found.astype(bool)
 
 
 def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:

@@ -75,6 +75,13 @@ def _word(name: str, value: Any, words: Sequence[str]) -> str:
     raise kind(f"{name} is {_shown(value)}, it must be {listed} or {words[-1]!r}.")
 
 
+def _diagonal(matrix: Any) -> Any:
+    """A matrix as it is, or the one that has this vector on its diagonal."""
+    if isinstance(matrix, numpy.ndarray) and matrix.ndim == 1 and matrix.dtype.kind in "fiu":
+        return scipy.sparse.diags(matrix.astype(float)).tocsr()
+    return matrix
+
+
 def _flag(name: str, value: Any) -> bool:
     """True or False, of Python or of NumPy."""
     if not isinstance(value, (bool, numpy.bool_)):
@@ -267,8 +274,8 @@ def _read(path: Any, function: Callable[[Any, Any], Any]) -> Any:
         raise
     except Exception:  # a damaged archive raises what zipfile, zlib and NumPy raise
         raise ValueError(
-            f"{path} holds no result of spectral_simplification: give a file that save() has "
-            "written."
+            f"{path} holds no result of spectral_simplification, or is damaged: give a file that "
+            "save() has written."
         ) from None
 
 
@@ -384,6 +391,7 @@ class Eigenpairs(_Result):
             if len(bad):
                 place = ", ".join(map(str, bad[0]))
                 raise ValueError(f"{name}[{place}] is not a finite number.")
+        M = _diagonal(M)
         for name, matrix in ("L", L), ("M", M):
             if not scipy.sparse.issparse(matrix):
                 raise _core.Wrong_type(
@@ -585,6 +593,16 @@ class Level(_Result):
         Positions of the input.
     fine_F : (f, 3) int64
         The triangles of the input that were used.
+    eigenpairs : Eigenpairs or None
+        Of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or
+        pre_simplify, and in what apply() returns.
+    coefficients : (n, 7) array or None
+        What the collapses have made of coefficients=: of the operator of this mesh.
+    fitted : Fitted_operators or None
+        With fit_operators=True, for evaluate(..., operators=...).
+    report : dict
+        Of a run what was done, with the names of spectral_simplify --json: counts, seconds,
+        stop_reason, warnings. Of other levels mass, eigenvectors and output_vertices.
     """
 
     V: numpy.ndarray
@@ -593,6 +611,11 @@ class Level(_Result):
     vertex_map: numpy.ndarray
     fine_V: numpy.ndarray
     fine_F: numpy.ndarray
+    eigenpairs: Eigenpairs | None
+    coefficients: numpy.ndarray | None
+    fitted: Fitted_operators | None
+    report: dict[str, Any]
+    _asked: dict[str, Any]  # of simplify(): what says which operator it was about
     _Q: scipy.sparse.csr_matrix | None
     _used: numpy.ndarray | None  # vertices of the input that have faces; None: all
     _stays: numpy.ndarray | None = None  # for merged vertices of the input the one that stays
@@ -799,18 +822,22 @@ class Level(_Result):
         Parameters
         ----------
         values, unit, nan : array, bool, str
-            As of interpolate().
+            As of interpolate(), and booleans.
 
         Returns
         -------
         (n, ...) array
-            In the unit of the values.
+            In the unit of the values, not rounded.
 
         Raises
         ------
         ValueError, TypeError
             In one sentence that names the first thing that is wrong.
         """
+        if not numpy.ma.isMaskedArray(values):
+            values = _rectangular("values", values)
+        if values.dtype.kind in "biu":  # a mean of counts is no count
+            values = values.astype(float)
         return self._carried(self.A, values, unit, nan)
 
     def transfer_labels(self, labels: Any, by: str = "restriction") -> Any:
@@ -819,7 +846,8 @@ class Level(_Result):
         Parameters
         ----------
         labels : (v,) array
-            Integers, booleans or strings, of NumPy or pandas; a pandas categorical gives one.
+            Integers, booleans or strings, of NumPy or pandas; a pandas categorical gives one. Whole
+            numbers of type float are integers.
             Those of vertices that were left out are not read, and may be missing.
         by : str
             'restriction': of those in a row of P the one of most weight, the smallest of several;
@@ -859,6 +887,9 @@ class Level(_Result):
             missing = missing | numpy.array(
                 [x is None or type(x).__name__ in ("NAType", "float") for x in labels.ravel()], bool
             )
+        if labels.dtype.kind == "f" and numpy.all(numpy.isnan(labels) | (labels % 1 == 0)):
+            missing = missing | numpy.isnan(labels).ravel()  # whole numbers of a file of text
+            labels = numpy.where(numpy.isnan(labels), 0, labels).astype(numpy.int64)
         self._check_labels(labels, v, missing)
         if labels.dtype.kind == "O" and not all(isinstance(x, str) for x in labels[self.used]):
             raise _core.Wrong_type(
@@ -889,62 +920,6 @@ class Level(_Result):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {len(self.fine_V)} to {len(self.V)} vertices>"
-
-
-class Simplification(Level):
-    """What simplify() returns: a Level, and how it came about.
-
-    Attributes
-    ----------
-    collapses : structured array
-        One record for each collapse, in order: the vertices of the input removed and kept, the
-        weight of the removed one, and point, where the vertex was put. Vertices are counted
-        among `used`.
-    eigenpairs : Eigenpairs or None
-        Of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or
-        pre_simplify.
-    coefficients : (n, 7) array or None
-        What the collapses have made of coefficients=: of the operator of this mesh.
-    fitted : Fitted_operators or None
-        With fit_operators=True, for evaluate(..., operators=...).
-    report : dict
-        What was done, with the names of spectral_simplify --json: counts, seconds, stop_reason,
-        warnings.
-    """
-
-    collapses: numpy.ndarray
-    eigenpairs: Eigenpairs | None
-    coefficients: numpy.ndarray | None
-    fitted: Fitted_operators | None
-    report: dict[str, Any]
-    _asked: dict[str, Any]  # of simplify(): what says which operator it was about
-
-    def levels(self, n: int) -> Level:
-        """The mesh of n vertices on the way from the input to the result, before relocation.
-
-        Parameters
-        ----------
-        n : int
-            From the vertices of the result to those of the input.
-
-        Returns
-        -------
-        Level
-            Without eigenpairs and report.
-
-        Raises
-        ------
-        ValueError, TypeError
-            If n is outside of this range.
-        """
-        V, F = self.part()
-        return Level._of(
-            _core.level(dict(V=V, F=F, collapses=self.collapses, n=n)),
-            self.fine_V,
-            self.fine_F,
-            self._used,
-            _stays=self._stays,
-        )
 
     @property
     def fine_eigenpairs(self) -> Eigenpairs:
@@ -1036,6 +1011,64 @@ class Simplification(Level):
             )
         )
 
+
+class Simplification(Level):
+    """What simplify() returns: a Level, and how it came about.
+
+    Attributes
+    ----------
+    collapses : structured array
+        One record for each collapse, in order: the vertices of the input removed and kept, the
+        weight of the removed one, and point, where the vertex was put. Vertices are counted
+        among `used`.
+    """
+
+    collapses: numpy.ndarray
+
+    def levels(self, n: int) -> Level:
+        """The mesh of n vertices on the way from the input to the result, before relocation.
+
+        Parameters
+        ----------
+        n : int
+            From the vertices of the result to those of the input.
+
+        Returns
+        -------
+        Level
+            Of the same eigenpairs.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If n is outside of this range.
+        """
+        V, F = self.part()
+        core = _core.level(dict(V=V, F=F, collapses=self.collapses, n=n))
+        of_input = self._asked["coefficients"]
+        return self._beside(
+            core,
+            self.fine_V,
+            eigenpairs=self.eigenpairs,
+            coefficients=None if of_input is None else core["P"] @ of_input,
+        )
+
+    def _beside(self, core: dict[str, Any], fine_V: numpy.ndarray, **more: Any) -> Level:
+        """A level with the operator of this run."""
+        names = "eigenvectors", "mass"
+        report = dict({name: self.report[name] for name in names}, warnings=[], left_out=[])
+        return Level._of(
+            core,
+            fine_V,
+            self.fine_F,
+            self._used,
+            fitted=None,
+            report=dict(report, output_vertices=len(core["V"])),
+            _asked=dict(self._asked, pairs=None),
+            _stays=self._stays,
+            **more,
+        )
+
     def apply(
         self,
         V_other: numpy.ndarray,
@@ -1059,7 +1092,8 @@ class Simplification(Level):
             them, before relocation.
         relocate : bool
             Afterwards moves the vertices so that the spectrum of this pose is kept, as
-            relocate='sampled' of simplify() does. Eigenvalues need it.
+            relocate='sampled' of simplify() does. Eigenvalues need it. Vertex i lies elsewhere
+            then, as the P of the result says: compare poses vertex by vertex without it.
         k : int, optional
             How many eigenpairs of this pose relocation sees; as many as the run kept. Not with
             eigenpairs.
@@ -1072,7 +1106,7 @@ class Simplification(Level):
         Returns
         -------
         Level
-            Without eigenpairs and report.
+            Its fine_eigenpairs are those of the pose, computed when they are first asked for.
 
         Raises
         ------
@@ -1134,7 +1168,7 @@ class Simplification(Level):
             )
             part_P = core["P"]
         core["P"], core["vertex_map"] = part_P, self.vertex_map[self.used]
-        return Level._of(core, V_other, self.fine_F, self._used, _stays=self._stays)
+        return self._beside(core, V_other, eigenpairs=None, coefficients=self.coefficients)
 
     def _check_pairs(self, eigenpairs: Eigenpairs, V, F) -> None:
         """Refuses eigenpairs that are not those of the mesh V, F in the mass of the run."""
