@@ -297,6 +297,14 @@ grep -q '"mass": "voronoi"' voronoi.json || fail "the mass is not in the JSON fi
 runs "a closed surface has no border" shape.off dirichlet.off --vertices 250 --eigenvectors 25 --boundary dirichlet --json dirichlet.json
 grep -q '25 eigenvectors, dirichlet' said || fail "the boundary condition is not in the table"
 grep -q '"boundary": "dirichlet"' dirichlet.json || fail "the boundary condition is not in the JSON file"
+# Fewer vertices off the border than modes were asked for: no more are written than there are.
+awk 'BEGIN { n = 20; print "OFF\n" n * n, 2 * (n - 1) * (n - 1), 0
+  for(i = 0; i < n * n; ++i) { x = int(i / n); y = i % n; print x, y, 2 * sin(x / 4) * cos(y / 3) }
+  for(x = 0; x < n - 1; ++x) for(y = 0; y < n - 1; ++y) { a = x * n + y; print 3, a, a + n, a + 1; print 3, a + 1, a + n, a + n + 1 } }' >bordered.off
+"$program" bordered.off few.off --vertices 30 --eigenvectors 20 --boundary dirichlet --eigenpairs bordered --quiet
+[ "$(wc -c < bordered/fine_eigenvalues.npy)" -eq 288 ] && [ "$(wc -c < bordered/coarse_eigenvalues.npy)" -lt 288 ] &&
+  od -An -v -tf8 -w8 -j128 bordered/coarse_eigenvalues.npy | awk '!($1 > 0.001 && $1 < 100) { bad = 1 } END { exit bad }' ||
+  fail "modes are written that the coarse mesh does not have"
 runs "an intrinsic triangulation" shape.off intrinsic.off --vertices 250 --eigenvectors 25 --intrinsic-delaunay --json intrinsic.json
 grep -q '"intrinsic_delaunay": true' intrinsic.json || fail "the intrinsic triangulation is not in the JSON file"
 # Two strips, the second in the same list after a -1, the first of three triangles.

@@ -115,7 +115,7 @@ TEST_CASE("BCICP leaves an exact map between copies as it is")
   CHECK(maps.Y_to_X == p);
 }
 
-TEST_CASE("BCICP mends a map between a shape and the same bent")
+TEST_CASE("BCICP mends a map between a shape and the same bent", "[slow]")
 {
   const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(3)), Y = bent(X);
   const Shape x = shape_of(X), y = shape_of(Y);

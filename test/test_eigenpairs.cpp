@@ -288,7 +288,7 @@ TEST_CASE("Rough pairs are complete only where they have been counted")
     }
 }
 
-TEST_CASE("Eigenpairs of a stiffness in any unit")
+TEST_CASE("Eigenpairs of a stiffness in any unit", "[slow]")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
   const Eigenpairs reference = SG::eigenpairs(op, 30);
@@ -393,7 +393,7 @@ TEST_CASE("The kernels on panels compute what Eigen does, for either kind of row
 #endif
 }
 
-TEST_CASE("The shift lies inside of the wanted spectrum, unless that has too many copies")
+TEST_CASE("The shift lies inside of the wanted spectrum, unless that has too many copies", "[slow]")
 {
   const auto shift = [&](const Laplace_operator& op, Eigen::Index K) {
     const SG::internal::Eigen_problem problem(op);
@@ -543,7 +543,7 @@ void check_converged(const Laplace_operator& op, const Eigenpairs& pairs,
 
 } // namespace
 
-TEST_CASE("Many like parts, each turned")
+TEST_CASE("Many like parts, each turned", "[slow]")
 {
   struct Scene
   {
@@ -578,7 +578,8 @@ TEST_CASE("One ball of five is a tenth as large")
   }
 }
 
-TEST_CASE("Many like parts in one Krylov space: its rank falls, copies are missed at first")
+TEST_CASE("Many like parts in one Krylov space: its rank falls, copies are missed at first",
+          "[slow]")
 {
   struct Scene
   {
@@ -703,7 +704,7 @@ TEST_CASE("The Dirichlet problem is that of the rows off the border")
   }
 }
 
-TEST_CASE("Many eigenvectors stay orthonormal")
+TEST_CASE("Many eigenvectors stay orthonormal", "[slow]")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(4), 0.5);
   CHECK(orthonormality_error(op, SG::eigenpairs(op, 400)) < 1e-11);

@@ -95,7 +95,7 @@ TEST_CASE("Z of filtered signals is B^-1 L F")
     }
 }
 
-TEST_CASE("Filtered noise has each eigenvector with the variance of the response")
+TEST_CASE("Filtered noise has each eigenvector with the variance of the response", "[slow]")
 {
   constexpr Eigen::Index r = 1500; // of two seeds
   for(const Case& c : small_cases()) {

@@ -409,7 +409,7 @@ TEST_CASE("floors are those of plane waves on the equilateral lattice")
   }
 }
 
-TEST_CASE("a nested icosphere comes close to the floors")
+TEST_CASE("a nested icosphere comes close to the floors", "[slow]")
 {
   const shapes::Matrices fine = shapes::icosphere_matrices(5),
                          coarse = shapes::icosphere_matrices(3);

@@ -80,7 +80,8 @@ double norm_L(const shapes::Matrices& fine, const Mesh& mesh, const Eigen::Spars
 } // namespace
 
 TEST_CASE("relocation after the policies leaves constrained edges and kept vertices, whatever the "
-          "signals")
+          "signals",
+          "[slow]")
 {
   const Source source = GENERATE(Source::eigenpairs, Source::own_signals, Source::noise);
   const bool told_late = GENERATE(false, true);

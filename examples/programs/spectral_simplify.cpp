@@ -362,8 +362,10 @@ void write_eigenpairs(const Output_files& files, const std::string& folder,
     write_matrix_market(files.temporary(path), matrix, path);
   };
   const SG::Eigenpairs& fine = *meshes.fine_pairs;
-  const Eigen::MatrixXd coarse_vectors = meshes.coarse_pairs.vectors.leftCols(fine.size());
-  const Eigen::VectorXd coarse_values = meshes.coarse_pairs.values.head(fine.size());
+  // OUTPUT may have fewer, where functions vanish on its border for instance.
+  const Eigen::Index K = (std::min)(fine.size(), meshes.coarse_pairs.size());
+  const Eigen::MatrixXd coarse_vectors = meshes.coarse_pairs.vectors.leftCols(K);
+  const Eigen::VectorXd coarse_values = meshes.coarse_pairs.values.head(K);
   npy("fine_eigenvalues", fine.values);
   npy("fine_eigenvectors", numbering.rows_of_file(fine.vectors));
   npy("coarse_eigenvalues", coarse_values);
@@ -433,7 +435,7 @@ void write_evaluation(const Output_files& files, const Arguments& a, const Mesh&
     write_matrix_market(files.temporary(path("L.mtx")), report.fitted->fit.op.L, path("L.mtx"));
     write_matrix_market(files.temporary(path("mass.mtx")), report.fitted->fit.op.B,
                         path("mass.mtx"));
-    const Eigen::Index K = meshes.fine_pairs->size();
+    const Eigen::Index K = (std::min)(meshes.fine_pairs->size(), report.fitted->pairs.size());
     const Eigen::VectorXd values = report.fitted->pairs.values.head(K);
     const Eigen::MatrixXd vectors = report.fitted->pairs.vectors.leftCols(K);
     write_npy(files.temporary(path("eigenvalues.npy")), values, path("eigenvalues.npy"));
