@@ -230,6 +230,25 @@ TEST_CASE("The vertex where several fans of faces meet is named, whatever collap
   CHECK(mesh.number_of_vertices() == std::size_t(input.V.rows()));
 }
 
+TEST_CASE("Closed surfaces that meet in a vertex are refused for that, and not for their genus")
+{
+  // Euler's formula says that five of them have -2 handles.
+  const shapes::Matrices part = shapes::bumpy_icosphere_matrices(1);
+  Mesh mesh = make_mesh(shapes::components_matrices(part, 5));
+  for(int i = 1; i < 5; ++i) {
+    const Mesh::Vertex_index v(i * int(part.V.rows()));
+    const auto range = CGAL::halfedges_around_target(v, mesh);
+    for(const auto h : std::vector<Mesh::Halfedge_index>(range.begin(), range.end()))
+      mesh.set_target(h, Mesh::Vertex_index(0));
+    mesh.remove_vertex(v);
+  }
+  mesh.collect_garbage();
+  SMS::Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 5;
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 60, options),
+                    ContainsSubstring("vertex 0 (counted from 0) joins several fans"));
+}
+
 TEST_CASE("Vertices that are fixed take no values from a border that is apart")
 {
   const shapes::Matrices sheet = wavy_grid_matrices(6, 6);

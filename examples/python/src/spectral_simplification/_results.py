@@ -847,8 +847,8 @@ class Level(_Result):
         ----------
         labels : (v,) array
             Integers, booleans or strings, of NumPy or pandas; a pandas categorical gives one. Whole
-            numbers of type float are integers.
-            Those of vertices that were left out are not read, and may be missing.
+            numbers of type float are integers. Those of vertices that were left out are not read,
+            and may be missing.
         by : str
             'restriction': of those in a row of P the one of most weight, the smallest of several;
             'area': the one with most area around the vertex, as average() weights it.
