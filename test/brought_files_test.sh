@@ -167,6 +167,8 @@ runs "binary STL" torus.off b.stl --vertices 100% --eigenvectors 5 --no-evaluati
 runs "binary STL, read" b.stl b.off --vertices 100% --eigenvectors 5 --no-evaluation
 head -c 9000 b.stl >c.stl
 refuses "binary STL that is cut off" "announces 576 faces, but it is cut off after 178" c.stl o.off $few
+{ head -c 80 b.stl; printf '\077\002\0\0'; tail -c +85 b.stl; } >c.stl
+refuses "binary STL with more than it announces" "announces 575 faces, but 576 follow" c.stl o.off $few
 
 # --- what is not there ---
 
@@ -189,6 +191,12 @@ for file in empty.off empty.obj empty.ply empty.stl; do
 done
 make b.off "print \"OFF\"; print V, F - 5, 0; $points $faces"
 refuses "OFF with more than it announces" "line 862 goes on after the last face that its head announces" b.off o.off $few
+sed '/^format/d' a.ply >b.ply
+refuses "PLY without a format" "its header has no line that begins with format" b.ply o.off $few
+sed 's/uchar int/uchar float/; $s/^\(3 [0-9]*\)/\1.5/' a.ply >b.ply
+refuses "PLY with half a vertex" "a vertex [0-9]*\.5 where a whole number is expected at .face. 575" b.ply o.off $few
+sed 's/uchar int/float int/; $s/^3/2.5/' a.ply >b.ply
+refuses "PLY with half a corner" "a length 2.5 where a whole number is expected at .face. 575" b.ply o.off $few
 sed 's/^element face 576/element face 571/' a.ply >b.ply
 refuses "PLY with more than it announces" "it goes on after the last element that its header announces" b.ply o.off $few
 for index in 99999999999999999999 4294967296 -1; do
@@ -414,7 +422,12 @@ for faces in 200 201 50%; do
   wanted=$(echo $faces | sed 's/50%/400/')
   [ "$n" -le "$wanted" ] && [ "$n" -ge $((wanted - 3)) ] || fail "--faces $faces, open: $n"
 done
+border=$(($(sed -n 2p square.off | awk '{ print 2 * $1 - $2 }') - 2)) # Euler's formula: V - E + F = 1
+runs "--faces with a border that stays" square.off o2.off --faces $((border + 20)) --keep border --eigenvectors 10 --no-evaluation --quiet
+[ "$(sed -n 2p o2.off | cut -d ' ' -f 2)" = $((border + 20)) ] || fail "--faces with a border that stays: $(sed -n 2p o2.off)"
 refuses "--faces and --vertices" "--faces and --vertices both say" torus.off o.off --faces 100 --vertices 50
+{ sed '2s/288/289/' torus.off | sed '290a 9 9 9'; } >isolated.off
+refuses "more vertices than are left" "has 288 vertices, and 289 before it was cleaned" isolated.off o.off --vertices 289 --eigenvectors 10
 refuses "more faces than there are" "--faces is 600, but 'torus.off' has 576 faces" torus.off o.off --faces 600 --eigenvectors 10
 refuses "a word for --faces" "it must be a number of faces above 0" torus.off o.off --faces many
 

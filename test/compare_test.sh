@@ -30,6 +30,8 @@ refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 200
 refuses "a size that is no number" "'x'" shape.off --vertices 200,x
 refuses "a size that is too large" "has [0-9]* vertices" shape.off --vertices 100000
 refuses "too many eigenvectors" "must be below" shape.off --vertices 200 --eigenvectors 100000 --report report.html
+refuses "too few eigenvectors" "eigenvectors is 2, it must be at least 3" shape.off --vertices 200 --eigenvectors 2
+refuses "too many sources" "of memory, but .* lower --sources" shape.off --vertices 200 --eigenvectors 20 --sources 100000000000
 refuses "an unknown mass" "heavy" shape.off --vertices 200 --judge heavy
 refuses "an operator without a mass" "NAME=L.mtx,M.mtx,P.mtx" shape.off --rival-operators x=shape.off
 refuses "a restriction that is none" "MatrixMarket" shape.off --rival x=shape.off,shape.off --eigenvectors 5
@@ -78,6 +80,9 @@ done
 [ "$(number mesh.json span_loss)" = "$(number s.json span_loss)" ] ||
   fail "span_loss is $(number mesh.json span_loss) in mesh.json and $(number s.json span_loss) in s.json"
 grep -q '"span_loss": null' operator.json || fail "an operator has a span loss, without a way back to the mesh"
+runs "fewer vertices than eigenvectors" shape.off --vertices 15 --eigenvectors 20 --judge lumped --only "spectral, paper"
+grep -q "has only 15 modes, and its eigenvalues and distances are judged by these" said ||
+  fail "15 modes are judged in place of 20, and nothing says so"
 runs "anybody's mesh without P" shape.off --rival x=coarse.off --eigenvectors 20 --judge averaged
 refuses "P of another mesh" "coarse x fine" coarse.off --rival x=coarse.off,P.mtx --eigenvectors 5
 awk '/^%/ || sized++ == 0 { print; next } { print $1, $2, $3 / 2 }' P.mtx >half.mtx

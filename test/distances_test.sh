@@ -19,6 +19,7 @@ refuses "no number of vertices" "a size" "$shape" --report report.html
 refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 300 --report report.html
 refuses "more vertices than there are" "has [0-9]* vertices" "$shape" --vertices 100000 --report report.html
 refuses "more eigenvectors than vertices" "at least 60" "$shape" --vertices 50 --eigenvectors 60 --report report.html
+refuses "too many sources" "of memory, but .* lower --sources" "$shape" --vertices 300 --sources 100000000000 --report report.html
 refuses "an unknown mass" "'full'" "$shape" --vertices 300 --mass full --report report.html
 refuses "unknown operators" "'lumped', it must be fitted or mesh" "$shape" --vertices 300 --operators lumped --report report.html
 refuses "an unknown option" "colour" "$shape" --vertices 300 --colour red --report report.html

@@ -950,7 +950,14 @@ class Maps(Case):
             for t in (first, T)
         ]
         self.assertLess(wrong[1], 0.7 * wrong[0])
+        told = []
+        few = ss.zoom_out(C[:10, :10], source, target, 16, 2, progress=lambda *at: told.append(at))
+        self.assertEqual(few[0].shape, (16, 16))
+        self.assertEqual(told, [("zoom_out", 0), ("zoom_out", 1 / 3), ("zoom_out", 2 / 3)])
+        with self.assertRaisesRegex(ss.Cancelled, "returned False"):
+            ss.zoom_out(C[:10, :10], source, target, progress=lambda *at: False)
         for words, call in (
+            ("progress is 3", lambda: ss.zoom_out(C, source, target, progress=3)),
             ("C has the shape", lambda: ss.point_map(np.ones((50, 3)), source, target)),
             ("T has the shape", lambda: ss.functional_map_of_point_map(self.T[:5], source, target)),
             ("k is 41", lambda: ss.zoom_out(C, source, target, 41)),

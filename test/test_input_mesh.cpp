@@ -112,6 +112,27 @@ TEST_CASE("Degenerate faces that CGAL cannot remove stay, and are named")
   CHECK_THROWS_WITH(read(text, Mending::full), ContainsSubstring("--repair could not do"));
 }
 
+TEST_CASE("The full repair takes away faces without area that hang on an edge or stand alone")
+{
+  // One hangs on the square, one on that, one stands alone.
+  const std::string text = square + "v 2 0 0\nv 3 0 0\nv 9 9 9\nv 10 9 9\nv 11 9 9\n"
+                                    "f 1 2 3\nf 1 3 4\nf 2 1 5\nf 5 1 6\nf 7 8 9\n";
+  CHECK_THROWS_WITH(read(text, Mending::plain), ContainsSubstring("no mass"));
+  const Input_mesh input = read(text, Mending::full);
+  CHECK(input.mesh.number_of_faces() == 2);
+  CHECK(mesh_vertices(input.numbering) ==
+        Indices({0, 1, 2, 3, no_vertex, no_vertex, no_vertex, no_vertex, no_vertex}));
+  CHECK_THAT(input.changes_of("x.obj"), ContainsSubstring("3 degenerate faces removed"));
+}
+
+TEST_CASE("What the full repair leaves is named by its number in the file")
+{
+  // The last face is too large, and isolated vertices and a copy stand before.
+  const std::string text =
+      "v 5 5 5\n" + square + "v 1e40 0 0\nv 0 1e-40 1\nf 2 3 4\nf 2 4 5\nf 2 3 4\nf 2 6 7\n";
+  CHECK_THROWS_WITH(read(text, Mending::full), ContainsSubstring("face 3 (counted from 0)"));
+}
+
 TEST_CASE("Copies of faces go")
 {
   const std::string text = square + "f 1 2 3\nf 3 2 1\nf 1 3 4\nf 2 3 1\n";

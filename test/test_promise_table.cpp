@@ -308,7 +308,7 @@ struct Row
   const char* cells[8]; // what holds in each column; what begins with "no" does not
 };
 
-const char *const yes = "yes", *const chords = "no, on its chords",
+const char *const yes = "yes", *const near_it = "no, near it",
                   *const first = "no, on the border of the first stage";
 
 const Row rows[] = {
@@ -333,7 +333,7 @@ const Row rows[] = {
      {yes, yes, yes, yes, yes, yes, yes, yes}},
     {"vertices of the border are on the border of the input",
      fault_of_border,
-     {chords, chords, chords, yes, yes, first, chords, first}}};
+     {near_it, near_it, near_it, yes, yes, first, near_it, first}}};
 
 std::string table()
 {

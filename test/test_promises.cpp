@@ -330,7 +330,7 @@ TEST_CASE("a relative error above one half is a warning of its own")
   CHECK(warnings.empty());
   SMS::internal::warn_of_error(warnings, 0.51);
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings.front(), ContainsSubstring("more than half of the signals is lost"));
+  CHECK_THAT(warnings.front(), ContainsSubstring("off by more than half on the signals"));
 }
 
 TEST_CASE("what a callback throws after the collapses comes through, and leaves their mesh")

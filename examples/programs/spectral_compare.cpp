@@ -13,6 +13,7 @@
 #include "io/Progress_bar.h"
 #include "io/command_line.h"
 #include "io/input_mesh.h"
+#include "io/machine_memory.h"
 #include "io/matrix_io.h"
 #include "io/matrix_market_reader.h"
 #include "io/mesh_io.h"
@@ -161,6 +162,7 @@ private:
       throw std::runtime_error("--eigenvectors is " + std::to_string(K) + ", it must be below " +
                                std::to_string(n) + ": that is how many vertices '" +
                                m_arguments.mesh + "' has.");
+    check_sources(m_arguments.sources, m_fine.number_of_vertices());
     m_matrices = SG::mesh_matrices(m_fine);
     std::vector<Eigen::Index> sources;
     std::mt19937 random(
@@ -215,7 +217,8 @@ private:
       m_comparison.notes.push_back("Left out by --without: simplifiers with '" +
                                    m_arguments.without + "' in their names.");
     if(m_comparison.results.empty())
-      throw std::runtime_error(no_simplifier(joined(m_arguments.only, "' or '")));
+      throw std::runtime_error(m_failure.empty() ? no_simplifier(joined(m_arguments.only, "' or '"))
+                                                 : m_failure);
   }
 
   // A name with any of the texts, or any name if there is none, that --without does not leave out.
@@ -273,8 +276,10 @@ private:
     } catch(const Write_error&) {
       throw;
     } catch(const std::exception& error) {
-      m_comparison.notes.push_back(row.name() + ", N = " + std::to_string(N) +
-                                   ", is missing: " + error.what());
+      const std::string what = row.name() + ", N = " + std::to_string(N) + ", is missing: ";
+      m_comparison.notes.push_back(what + error.what());
+      if(m_failure.empty())
+        m_failure = m_comparison.notes.back();
     }
   }
 
@@ -312,6 +317,16 @@ private:
         write_coloured(coarse.mesh, candidate, judged, row);
       row.judgements.push_back(std::move(judged.judgement));
     }
+    note_missing_modes(row);
+  }
+
+  void note_missing_modes(const Simplified& row)
+  {
+    const Eigen::Index modes = row.judgements.front().C.rows();
+    if(modes < m_arguments.eigenvectors)
+      m_comparison.notes.push_back(
+          row.name() + ", N = " + std::to_string(row.vertices) + ", has only " +
+          std::to_string(modes) + " modes, and its eigenvalues and distances are judged by these.");
   }
 
   // Judges the mesh with fitted operators. Its seconds are those of the mesh and of the fits in all
@@ -337,6 +352,7 @@ private:
       row.judgements.push_back(
           judge(reference, candidate, [](double) { return !interrupted; }).judgement);
     }
+    note_missing_modes(row);
   }
 
   // Whether `function` had nothing to object to a rival: one that is refused does not end the
@@ -461,6 +477,7 @@ private:
       row.judgements.push_back(
           judge(reference, candidate, [](double) { return !interrupted; }).judgement);
     }
+    note_missing_modes(row);
     m_comparison.notes.push_back(
         "The coarse operator '" + row.simplifier +
         "' has the mass matrix that it came with, whichever mass it is judged "
@@ -575,6 +592,7 @@ private:
   Output_files m_files;
   Progress_bar m_bar;
   Comparison m_comparison;
+  std::string m_failure; // of the first simplifier that failed
   // About the rivals that were refused, with the options that named them.
   std::vector<std::string> m_complaints;
   Input_mesh m_input;

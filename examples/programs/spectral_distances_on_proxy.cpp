@@ -9,6 +9,7 @@
 #include "compare/heaviest_vertices.h"
 #include "io/command_line.h"
 #include "io/input_mesh.h"
+#include "io/machine_memory.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
@@ -142,6 +143,7 @@ Pair simplify(const Distance_arguments& a)
       read_input_mesh(a.mesh, mending(a.strict, a.repair), false, 0, not_interrupted);
   Mesh& mesh = input.mesh;
   const std::size_t n = mesh.number_of_vertices(), N = a.target.of(n);
+  check_sources(a.sources, n);
   if(N > n || static_cast<long>(N) < a.eigenvectors)
     throw std::runtime_error("--vertices asks for " + std::to_string(N) + ", it must be at least " +
                              std::to_string(a.eigenvectors) +

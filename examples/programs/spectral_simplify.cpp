@@ -665,7 +665,7 @@ int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh
 }
 
 // How many vertices a mesh has when it has so many faces. A closed mesh has two for each vertex,
-// less what its handles take; a border is taken to lose vertices as its mesh does.
+// less what its handles take; a border that is not kept is taken to lose vertices as its mesh does.
 std::size_t vertices_for_faces(const Arguments& a, const Mesh& mesh)
 {
   if(!a.faces)
@@ -681,7 +681,9 @@ std::size_t vertices_for_faces(const Arguments& a, const Mesh& mesh)
       std::count_if(edges.begin(), edges.end(), [&](const auto e) { return mesh.is_border(e); }));
   const double twice_characteristic = 2 * V - border - F;
   double vertices = (wanted + twice_characteristic) / 2;
-  for(int i = 0; i < 50 && border > 0; ++i)
+  if(a.kept.border)
+    vertices += border / 2;
+  for(int i = 0; i < 50 && border > 0 && !a.kept.border; ++i)
     vertices =
         (wanted + twice_characteristic + border * std::sqrt((std::max)(vertices, 0.) / V)) / 2;
   return std::size_t((std::max)((std::min)(std::floor(vertices), V), 1.));
@@ -701,7 +703,8 @@ simplify_to_faces(Mesh& mesh, std::size_t target, const std::size_t faces,
       break;
     const long step = off / 2 + (off < 0 && off % 2 != 0 ? -1 : 0);
     const long next = static_cast<long>(target) + step;
-    if(next < 3 || next > static_cast<long>(copy.number_of_vertices()))
+    if(next < 3 || next < static_cast<long>(options.kept_vertices.size()) ||
+       next > static_cast<long>(copy.number_of_vertices()))
       break;
     target = static_cast<std::size_t>(next);
     mesh = copy;
@@ -747,7 +750,8 @@ int run(Arguments a)
                 "' has no vertex at what --keep names: no border, no sharp edge of that angle."
           : "";
   const std::size_t target =
-      resolve_sizes(a, num_vertices(input.mesh), kept.size(), vertices_for_faces(a, input.mesh));
+      resolve_sizes(a, num_vertices(input.mesh), kept.size(), vertices_for_faces(a, input.mesh),
+                    input.numbering.number_of_file_vertices());
   SMS::Spectral_edge_collapse_options options =
       options_of_run(a, target, input.numbering, std::move(kept), bar);
   options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);

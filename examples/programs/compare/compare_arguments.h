@@ -111,8 +111,8 @@ inline void check(const Compare_arguments& a)
   if(!a.coloured.empty() && a.vertices.empty() &&
      std::all_of(a.rivals.begin(), a.rivals.end(), [](const Rival& r) { return r.mesh.empty(); }))
     refuse("--coloured needs a coarse mesh, an operator has none.");
-  if(a.eigenvectors < 2)
-    refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be at least 2.");
+  if(a.eigenvectors < 3) // distances take two eigenvalues that are not 0
+    refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be at least 3.");
   if(a.sources < 1)
     refuse("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
 }

@@ -23,6 +23,7 @@
 namespace {
 
 using CGAL::Spectral_geometry::Mesh_diagnosis;
+using CGAL::Spectral_geometry::Mesh_finding;
 using Polygons = std::vector<std::vector<std::size_t>>;
 
 // Polygons with vertices of the file, and which of these have become one.
@@ -192,6 +193,36 @@ std::string still_cut(const Mesh_diagnosis& diagnosis, const std::vector<std::si
          " on another, where --repair had to separate sheets, the first is vertex " +
          std::to_string(origin[diagnosis.cracks.front().first]) +
          " of INPUT (counted from 0): functions may jump there.";
+}
+
+// Findings in a repaired soup by the numbers that their vertices and faces have in the file:
+// `vertex` says which of the soup each of the file has become, `origin` the contrary. A face has
+// that of the polygon with most of its vertices.
+void number_as_in_file(Mesh_diagnosis& diagnosis, const Polygon_soup& repaired,
+                       const Polygon_soup& file, const std::vector<std::size_t>& vertex,
+                       const std::vector<std::size_t>& origin)
+{
+  const auto face_of_file = [&](const std::size_t f) {
+    const std::vector<std::size_t>& face = repaired.polygons[f];
+    std::pair<std::size_t, std::size_t> best{0, 0}; // shared vertices, polygon
+    for(std::size_t p = 0; p < file.polygons.size() && best.first < face.size(); ++p) {
+      std::size_t shared = 0;
+      for(const std::size_t v : face)
+        shared +=
+            std::any_of(file.polygons[p].begin(), file.polygons[p].end(),
+                        [&](const std::size_t w) { return w < vertex.size() && vertex[w] == v; });
+      if(shared > best.first)
+        best = {shared, p};
+    }
+    return best.second;
+  };
+  for(Mesh_finding* const finding : {&diagnosis.zero_area_faces, &diagnosis.overflowing_faces})
+    if(finding->count != 0)
+      finding->first = face_of_file(finding->first);
+  for(Mesh_finding* const finding :
+      {&diagnosis.massless_vertices, &diagnosis.non_manifold_vertices})
+    if(finding->count != 0)
+      finding->first = origin[finding->first];
 }
 
 std::string help_with(const Mesh_diagnosis& diagnosis, const Mending mending)
@@ -454,6 +485,7 @@ Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending 
     }
     input.diagnosis = diagnose(repaired);
     input.still_cut = still_cut(input.diagnosis, origin);
+    number_as_in_file(input.diagnosis, repaired, soup, vertex, origin);
     input.diagnosis.cracks.clear(); // what helps there is no repair
     soup = std::move(repaired);
   } else {

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -122,6 +123,18 @@ inline std::string formatted_memory(double bytes)
   else
     std::snprintf(text, sizeof(text), "%.1f GB", bytes / 1e9);
   return text;
+}
+
+// Refuses --sources whose distances to n vertices do not fit in memory: those of both meshes, and
+// what carries them over, four numbers for each.
+inline void check_sources(const long sources, const std::size_t n)
+{
+  const double needed = 32. * double(sources) * double(n), available = available_memory();
+  if(available > 0 && needed > available)
+    throw std::runtime_error("distances from " + std::to_string(sources) + " sources to " +
+                             std::to_string(n) + " vertices take about " +
+                             formatted_memory(needed) + " of memory, but this machine has " +
+                             formatted_memory(available) + " left: lower --sources.");
 }
 
 #endif // SPECTRAL_EXAMPLES_IO_MACHINE_MEMORY_H

@@ -14,6 +14,7 @@
 #include "orientation.h"
 #include "silence.h"
 
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -27,6 +28,7 @@
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/exceptions.h>
 #include <CGAL/utility.h>
 #include <CGAL/version.h>
@@ -516,6 +518,49 @@ void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
   log.add("degenerate face removed", "degenerate faces removed", before - mesh.number_of_faces());
 }
 
+// What no flip and no collapse mends: faces without area whose vertex has no others. Such as hang
+// on an edge, or stand alone, have border edges and go, those beneath them next.
+void remove_massless_borders(Exact_mesh& mesh, Repair_log& log)
+{
+  std::vector<char> has_area(mesh.number_of_faces(), 0), has_mass(mesh.number_of_vertices(), 0);
+  const auto row = [&](const Exact_mesh::Vertex_index v) {
+    const auto& p = mesh.point(v);
+    return Eigen::RowVector3d(p.x(), p.y(), p.z());
+  };
+  for(const auto f : mesh.faces()) {
+    log.go_on();
+    const auto h = mesh.halfedge(f);
+    const auto u = mesh.source(h), v = mesh.target(h), w = mesh.target(mesh.next(h));
+    has_area[f] = CGAL::Spectral_geometry::triangle_cotangents(row(u), row(v), row(w)).area != 0;
+    for(const auto x : {u, v, w})
+      has_mass[x] |= has_area[f];
+  }
+  std::vector<Exact_mesh::Face_index> next(mesh.faces().begin(), mesh.faces().end());
+  std::size_t removed = 0;
+  while(!next.empty()) {
+    const auto f = next.back();
+    next.pop_back();
+    if(mesh.is_removed(f) || has_area[f])
+      continue;
+    const auto h = mesh.halfedge(f);
+    bool massless = false, at_border = false;
+    std::vector<Exact_mesh::Face_index> beside;
+    for(const auto g : mesh.halfedges_around_face(h)) {
+      massless = massless || !has_mass[mesh.target(g)];
+      at_border = at_border || mesh.is_border(mesh.opposite(g));
+      if(!mesh.is_border(mesh.opposite(g)))
+        beside.push_back(mesh.face(mesh.opposite(g)));
+    }
+    if(!massless || !at_border)
+      continue;
+    CGAL::Euler::remove_face(h, mesh);
+    ++removed;
+    next.insert(next.end(), beside.begin(), beside.end());
+  }
+  mesh.collect_garbage();
+  log.add("degenerate face removed", "degenerate faces removed", removed);
+}
+
 // The result in the order of `input`, and how the vertices of both belong together: by their
 // positions, as what follows the closing of cracks moves no vertex, and leaves one where several
 // had been.
@@ -578,6 +623,8 @@ Polygon_soup repaired_soup(const Polygon_soup& file, Repair_log& log,
   const auto diagnosis = diagnose(to_soup(mesh));
   if(diagnosis.zero_area_faces.count != 0 || diagnosis.overflowing_faces.count != 0)
     remove_degenerate_faces(mesh, log);
+  if(diagnosis.massless_vertices.count != 0)
+    remove_massless_borders(mesh, log);
   log.add("vertex doubled to separate sheets", "vertices doubled to separate sheets",
           PMP::duplicate_non_manifold_vertices(mesh));
   log.add("isolated vertex removed", "isolated vertices removed",

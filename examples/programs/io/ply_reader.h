@@ -125,6 +125,7 @@ private:
   void read_header()
   {
     std::string line, word;
+    bool has_format = false;
     if(!next_line(line) || line.compare(0, 3, "ply") != 0)
       refuse("its first word is not ply");
     while(next_line(line)) {
@@ -132,10 +133,13 @@ private:
       word.clear();
       words >> word;
       if(word == "end_header") {
+        if(!has_format)
+          refuse("its header has no line that begins with format");
         check_properties();
         return;
       }
       if(word == "format") {
+        has_format = true;
         words >> word;
         m_text = word == "ascii";
         m_big_endian = word == "binary_big_endian";
@@ -291,13 +295,28 @@ private:
     double count = 0, value = 0;
     if(!read_value(property.count_type, count))
       return false;
+    if(!is_integer(count) || count < 0)
+      return refuse_value("the list " + quoted(property.name) + " has a length", count);
     m_list.clear();
     for(double k = 0; k < count; ++k) {
       if(!read_value(property.type, value))
         return false;
+      if(property.vertices && !is_integer(value))
+        return refuse_value("the list " + quoted(property.name) + " has a vertex", value);
       m_list.push_back(value);
     }
     return true;
+  }
+
+  static bool is_integer(const double value) { return value == std::floor(value); }
+
+  // What no count and no index can be.
+  bool refuse_value(const std::string& what, const double value)
+  {
+    std::ostringstream text;
+    text << what << ' ' << value << " where a whole number is expected";
+    m_refused = text.str();
+    return false;
   }
 
   // Each vertex makes a triangle with the two before it, every other one turned round; a negative
@@ -356,7 +375,7 @@ private:
     const int bits = 8 << number / 2;
     const bool is_signed = number % 2 == 0;
     const double end = std::ldexp(1., is_signed ? bits - 1 : bits);
-    return value >= (is_signed ? -end : 0.) && value < end && value == std::floor(value);
+    return value >= (is_signed ? -end : 0.) && value < end && is_integer(value);
   }
 
   // The bytes end with a 0.

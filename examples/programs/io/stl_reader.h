@@ -50,6 +50,10 @@ public:
       throw std::runtime_error("its header announces " + std::to_string(faces) +
                                " faces, but it is cut off after " +
                                std::to_string((size - 84) / 50));
+    else if(size >= 84 + 50 * (faces + 1)) // fewer bytes are no face
+      throw std::runtime_error("its header announces " + std::to_string(faces) + " faces, but " +
+                               std::to_string((size - 84) / 50) +
+                               " follow: write the right number in its bytes 80 to 83");
     else
       reader.read_binary(file, faces, start.find("COLOR=") != std::string::npos);
     return std::move(reader.m_soup);

@@ -62,7 +62,10 @@ inline std::string restriction_in_words(
           : "";
   if(result.relocation.resampled)
     return "closest points of " + (first.empty() ? "the input" : first) +
-           ", found anew after relocation";
+           ", found anew after relocation" +
+           (options.boundary == CGAL::Spectral_geometry::Boundary_condition::dirichlet
+                ? "; at the border the merges of the collapses"
+                : "");
   return options.binary ? "one vertex of the input for each of the output, as the collapses chose"
                         : "the merges of the collapses, weighted by where the points were placed";
 }

@@ -28,8 +28,7 @@ from ._results import _check_folder, _written
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str):  # 1, as of every other error and of the program
-        self.print_usage(sys.stderr)
-        self.exit(1, f"error: {message}\n")
+        self.exit(1, f"error: {message}; --help shows every option.\n")
 
 
 def _arguments() -> argparse.ArgumentParser:

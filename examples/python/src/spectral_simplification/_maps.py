@@ -18,6 +18,7 @@ from ._results import (
     Alignment,
     Eigenpairs,
     Level,
+    Progress,
     _array,
     _check_entries,
     _integer,
@@ -137,6 +138,8 @@ def zoom_out(
     k: int | None = None,
     step: int = 1,
     threads: int | None = None,
+    *,
+    progress: Progress | None = None,
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Refines a functional map by ZoomOut (Melzi et al. 2019): to a point map and back, with more
     modes each time.
@@ -154,6 +157,8 @@ def zoom_out(
         tenth of the time of 1, and errs as much.
     threads : int, optional
         All cores by default.
+    progress : function, optional
+        See simplify(); of the phase 'zoom_out', asked between the steps.
 
     Returns
     -------
@@ -164,6 +169,8 @@ def zoom_out(
 
     Raises
     ------
+    Cancelled
+        Where progress returns False.
     ValueError, TypeError
         In one sentence that names the first thing that is wrong.
     """
@@ -176,9 +183,18 @@ def zoom_out(
         )
     k = _integer("k", k, len(C), most, ", the modes of C and those of both eigenpairs")
     step = _integer("step", step, 1)
+    if not (progress is None or callable(progress)):
+        raise _core.Wrong_type(
+            f"progress is {_shown(progress)}, it must be None or a function of a phase and a "
+            "fraction."
+        )
+    first = len(C)
     phi, image = source.vectors, target.M @ target.vectors
     T = point_map(C, source, target, threads)
     while len(C) < k:
+        answer = progress("zoom_out", (len(C) - first) / (k - first)) if progress else None
+        if answer is not None and not answer:
+            raise _core.Cancelled("The progress callback returned False. Nothing is returned.")
         n = min(len(C) + step, k)
         C = image[:, :n].T @ phi[T, :n]
         T = point_map(C, source, target, threads)

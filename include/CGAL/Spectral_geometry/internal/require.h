@@ -16,7 +16,6 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -223,8 +223,10 @@ private:
     for_each_range(count, columns_at_once, m_threads, [&](const Index first, const Index end) {
       auto x = X.middleCols(first, end - first);
       x = cholesky.solve(op.B * m_vectors.middleCols(first, end - first));
-      for(Index k = 0; k < x.cols(); ++k) // their lengths are near 1 / (lambda + s)
-        x.col(k) /= std::sqrt(x.col(k).dot(op.B * x.col(k)));
+      for(Index k = 0; k < x.cols(); ++k) { // their lengths are near 1 / (lambda + s)
+        const Eigen::VectorXd Bx = op.B * x.col(k);
+        x.col(k) /= std::sqrt(x.col(k).dot(Bx));
+      }
     });
     // The solver reads lower triangles alone.
     for_each_range(count, columns_at_once, m_threads, [&](const Index first, const Index end) {

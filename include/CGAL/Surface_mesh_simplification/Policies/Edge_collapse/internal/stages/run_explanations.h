@@ -69,6 +69,10 @@ inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrice
           ? "ask for more vertices, or allow self-intersections."
       : refusals.topology >= refusals.placement && (components > 1 || handles > 0)
           ? "ask for more vertices, or take small components and handles away."
+      : refusals.geometry > refusals.placement
+          ? "ask for more vertices, or constrain less; CGAL never folds faces to within a degree "
+            "of "
+            "each other, as at the rim of a thin body."
           : "ask for more vertices, or constrain and keep less.");
 }
 
@@ -100,9 +104,10 @@ inline void warn_of_error(std::vector<std::string>& warnings, const double relat
 {
   if(relative_error > 0.5)
     warnings.push_back(sentence("The relative error is ", relative_error,
-                                ": more than half of the signals is lost, or kept vertices have "
-                                "tiny faces; ask for more vertices, for fewer eigenvectors, keep "
-                                "fewer vertices, or take small components away."));
+                                ": the Laplacian of the output is off by more than half on the "
+                                "signals; ask for more vertices or fewer eigenvectors, or take "
+                                "small components away. Where much is kept or constrained, tiny "
+                                "faces there may be the reason."));
 }
 
 /// A connected component, and what a target needs for it.
