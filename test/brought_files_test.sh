@@ -129,6 +129,8 @@ make b.ply "print \"ply\nformat ascii 1.0\nelement extra 2\nproperty int a\nprop
 make b.ply "$ply; print \"element tristrips 1\nproperty list int int vertex_indices\nend_header\"; $points
   printf \"%d\", 4 * F; for(f = 0; f < F; ++f) { torus_face(f); printf \" %d %d %d -1\", p, q, r } print \"\""
 same "PLY, strips" b.ply
+sed 's/int int vertex_indices/int float vertex_indices/; $s/^\([0-9]* [0-9]*\)/\1.5/' b.ply >c.ply
+refuses "PLY with half a vertex in a strip" "has the vertex [0-9]*\.5 where a whole number is expected" c.ply o.off $few
 runs "binary PLY" torus.off b.ply --vertices 100% --eigenvectors 5 --no-evaluation
 same "PLY, binary" b.ply
 
@@ -168,7 +170,10 @@ runs "binary STL, read" b.stl b.off --vertices 100% --eigenvectors 5 --no-evalua
 head -c 9000 b.stl >c.stl
 refuses "binary STL that is cut off" "announces 576 faces, but it is cut off after 178" c.stl o.off $few
 { head -c 80 b.stl; printf '\077\002\0\0'; tail -c +85 b.stl; } >c.stl
-refuses "binary STL with more than it announces" "announces 575 faces, but 576 follow" c.stl o.off $few
+refuses "binary STL with more than it announces" "announces 575 faces, but more follow: write the right number, up to 576" c.stl o.off $few
+{ cat b.stl; head -c 300 /dev/zero; } >c.stl
+runs "binary STL that is filled up" c.stl c.off --vertices 100% --eigenvectors 5 --no-evaluation
+cmp -s b.off c.off || fail "binary STL that is filled up: another mesh"
 
 # --- what is not there ---
 
@@ -194,9 +199,9 @@ refuses "OFF with more than it announces" "line 862 goes on after the last face 
 sed '/^format/d' a.ply >b.ply
 refuses "PLY without a format" "its header has no line that begins with format" b.ply o.off $few
 sed 's/uchar int/uchar float/; $s/^\(3 [0-9]*\)/\1.5/' a.ply >b.ply
-refuses "PLY with half a vertex" "a vertex [0-9]*\.5 where a whole number is expected at .face. 575" b.ply o.off $few
+refuses "PLY with half a vertex" "has the vertex [0-9]*\.5 where a whole number is expected at .face. 575" b.ply o.off $few
 sed 's/uchar int/float int/; $s/^3/2.5/' a.ply >b.ply
-refuses "PLY with half a corner" "a length 2.5 where a whole number is expected at .face. 575" b.ply o.off $few
+refuses "PLY with half a corner" "has the length 2.5 where a whole number from 0 is expected at .face. 575" b.ply o.off $few
 sed 's/^element face 576/element face 571/' a.ply >b.ply
 refuses "PLY with more than it announces" "it goes on after the last element that its header announces" b.ply o.off $few
 for index in 99999999999999999999 4294967296 -1; do

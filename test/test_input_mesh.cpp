@@ -114,23 +114,50 @@ TEST_CASE("Degenerate faces that CGAL cannot remove stay, and are named")
 
 TEST_CASE("The full repair takes away faces without area that hang on an edge or stand alone")
 {
-  // One hangs on the square, one on that, one stands alone.
-  const std::string text = square + "v 2 0 0\nv 3 0 0\nv 9 9 9\nv 10 9 9\nv 11 9 9\n"
-                                    "f 1 2 3\nf 1 3 4\nf 2 1 5\nf 5 1 6\nf 7 8 9\n";
+  // One hangs on the square, one on that, one stands alone, and so does a tetrahedron.
+  const std::string text = square +
+                           "v 2 0 0\nv 3 0 0\nv 9 9 9\nv 10 9 9\nv 11 9 9\nv 5 5 5\nv 6 5 5\n"
+                           "v 7 5 5\nv 8 5 5\nf 1 2 3\nf 1 3 4\nf 2 1 5\nf 5 1 6\nf 7 8 9\n"
+                           "f 10 11 12\nf 10 13 11\nf 11 13 12\nf 12 13 10\n";
   CHECK_THROWS_WITH(read(text, Mending::plain), ContainsSubstring("no mass"));
   const Input_mesh input = read(text, Mending::full);
   CHECK(input.mesh.number_of_faces() == 2);
-  CHECK(mesh_vertices(input.numbering) ==
-        Indices({0, 1, 2, 3, no_vertex, no_vertex, no_vertex, no_vertex, no_vertex}));
-  CHECK_THAT(input.changes_of("x.obj"), ContainsSubstring("3 degenerate faces removed"));
+  Indices left = {0, 1, 2, 3};
+  left.resize(13, no_vertex);
+  CHECK(mesh_vertices(input.numbering) == left);
+  CHECK_THAT(input.changes_of("x.obj"), ContainsSubstring("7 degenerate faces removed"));
+  CHECK_THAT(input.changes_of("x.obj"), !ContainsSubstring("separated that"));
+}
+
+TEST_CASE("The full repair says where only faces without area had joined two parts")
+{
+  const std::string text = square +
+                           "v 3 0 0\nv 4 0 0\nv 4 1 0\nv 3 1 0\nv 2 0 0\nf 1 2 3\nf 1 3 4\n"
+                           "f 5 6 7\nf 5 7 8\nf 2 1 9\nf 2 9 5\nf 5 9 6\n";
+  const Input_mesh input = read(text, Mending::full);
+  CHECK(input.diagnosis.components.size() == 2);
+  CHECK_THAT(input.changes_of("x.obj"),
+             ContainsSubstring("1 part separated that only faces without area had joined"));
+}
+
+TEST_CASE("A file of which the repair leaves nothing is refused with what was removed")
+{
+  CHECK_THROWS_WITH(read("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", Mending::full),
+                    ContainsSubstring("has no faces left: 1 degenerate face removed"));
 }
 
 TEST_CASE("What the full repair leaves is named by its number in the file")
 {
-  // The last face is too large, and isolated vertices and a copy stand before.
-  const std::string text =
-      "v 5 5 5\n" + square + "v 1e40 0 0\nv 0 1e-40 1\nf 2 3 4\nf 2 4 5\nf 2 3 4\nf 2 6 7\n";
-  CHECK_THROWS_WITH(read(text, Mending::full), ContainsSubstring("face 3 (counted from 0)"));
+  // The last face is too large; isolated vertices and a copy stand before.
+  CHECK_THROWS_WITH(
+      read("v 5 5 5\n" + square + "v 1e40 0 0\nv 0 1e-40 1\nf 2 3 4\nf 2 4 5\nf 2 3 4\nf 2 6 7\n",
+           Mending::full),
+      ContainsSubstring("face 3 (counted from 0)"));
+  // Its edge has three faces, so that both of its ends are doubled.
+  CHECK_THROWS_WITH(read("v 0 0 0\nv 0 1 0\nv 1 0 0\nv -1 0 0\nv 0 0.5 1e40\nv 1e40 0 2e40\n"
+                         "v 0 1e40 2e40\nf 5 6 7\nf 1 2 3\nf 2 1 4\nf 1 2 5\n",
+                         Mending::full),
+                    ContainsSubstring("face 3 (counted from 0)"));
 }
 
 TEST_CASE("Copies of faces go")

@@ -84,6 +84,24 @@ TEST_CASE("Vertices to keep are more than the target: the run ends when nothing 
   CHECK_THAT(result.explanation, ContainsSubstring("constrain and keep less"));
 }
 
+TEST_CASE("What CGAL's test of faces holds is not put down to constraints alone")
+{
+  const int n = 24; // a lens of two sheets, whose faces meet within a degree at the rim
+  shapes::Matrices lens{Eigen::MatrixXd::Zero(n + 2, 3), Eigen::MatrixXi(2 * n, 3)};
+  for(int k = 0; k < n; ++k) {
+    lens.V.row(k) << std::cos(2 * CGAL_PI * k / n), std::sin(2 * CGAL_PI * k / n), 0;
+    lens.T.row(2 * k) << n, k, (k + 1) % n;
+    lens.T.row(2 * k + 1) << n + 1, (k + 1) % n, k;
+  }
+  lens.V(n, 2) = 1e-3;
+  lens.V(n + 1, 2) = -1e-3;
+  Mesh mesh = make_mesh(lens);
+  const Result result = SMS::spectral_edge_collapse(mesh, 12, options_with(3));
+  CHECK(result.output_vertices > 12);
+  CHECK(result.refusals.geometry > result.refusals.placement);
+  CHECK_THAT(result.explanation, ContainsSubstring("at the rim of a thin body"));
+}
+
 TEST_CASE("Vertices to keep and edge constraints hold at the same time, in one stage or two")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);

@@ -175,6 +175,16 @@ private:
       CGAL::Real_timer timer;
       timer.start();
       Fine_reference r = fine_reference(m_matrices, mass, K, sources, progress("reference"));
+      SG::Eigenpairs first; // by which distances are judged
+      first.values = r.pairs.values.head(K);
+      first.zeros = r.pairs.zeros;
+      try {
+        SG::wave_kernel_energies(first);
+      } catch(const std::invalid_argument&) {
+        throw std::runtime_error("the first eigenvalues of '" + m_arguments.mesh +
+                                 "' are 0 or equal, so that distances cannot be judged by " +
+                                 std::to_string(K) + ": ask for more with --eigenvectors.");
+      }
       m_comparison.area = r.op.mass.sum();
       m_comparison.fine.push_back({r.mass, m_comparison.area * r.pairs.values, r.pairs.zeros,
                                    timer.time(), r.pairs.residuals.maxCoeff()});
@@ -322,11 +332,12 @@ private:
 
   void note_missing_modes(const Simplified& row)
   {
-    const Eigen::Index modes = row.judgements.front().C.rows();
-    if(modes < m_arguments.eigenvectors)
+    if(m_has_all_modes && row.judgements.front().C.rows() < m_arguments.eigenvectors)
       m_comparison.notes.push_back(
-          row.name() + ", N = " + std::to_string(row.vertices) + ", has only " +
-          std::to_string(modes) + " modes, and its eigenvalues and distances are judged by these.");
+          "Eigenvalues and distances of coarse meshes that have fewer than " +
+          std::to_string(m_arguments.eigenvectors) + " modes are judged by those that they have.");
+    m_has_all_modes =
+        m_has_all_modes && row.judgements.front().C.rows() >= m_arguments.eigenvectors;
   }
 
   // Judges the mesh with fitted operators. Its seconds are those of the mesh and of the fits in all
@@ -592,7 +603,8 @@ private:
   Output_files m_files;
   Progress_bar m_bar;
   Comparison m_comparison;
-  std::string m_failure; // of the first simplifier that failed
+  bool m_has_all_modes = true; // every result so far
+  std::string m_failure;       // of the first simplifier that failed
   // About the rivals that were refused, with the options that named them.
   std::vector<std::string> m_complaints;
   Input_mesh m_input;

@@ -195,11 +195,11 @@ std::string still_cut(const Mesh_diagnosis& diagnosis, const std::vector<std::si
          " of INPUT (counted from 0): functions may jump there.";
 }
 
-// Findings in a repaired soup by the numbers that their vertices and faces have in the file:
-// `vertex` says which of the soup each of the file has become, `origin` the contrary. A face has
-// that of the polygon with most of its vertices.
-void number_as_in_file(Mesh_diagnosis& diagnosis, const Polygon_soup& repaired,
-                       const Polygon_soup& file, const std::vector<std::size_t>& vertex,
+// Gives findings in a repaired soup the numbers of the file, and the totals. `vertex` says which of
+// the soup each vertex of the file has become, `origin` the contrary; a face has the number of the
+// polygon with most of its vertices.
+void number_as_in_file(Mesh_diagnosis& d, const Polygon_soup& repaired, const Polygon_soup& file,
+                       const std::vector<std::size_t>& vertex,
                        const std::vector<std::size_t>& origin)
 {
   const auto face_of_file = [&](const std::size_t f) {
@@ -207,22 +207,44 @@ void number_as_in_file(Mesh_diagnosis& diagnosis, const Polygon_soup& repaired,
     std::pair<std::size_t, std::size_t> best{0, 0}; // shared vertices, polygon
     for(std::size_t p = 0; p < file.polygons.size() && best.first < face.size(); ++p) {
       std::size_t shared = 0;
-      for(const std::size_t v : face)
-        shared +=
-            std::any_of(file.polygons[p].begin(), file.polygons[p].end(),
-                        [&](const std::size_t w) { return w < vertex.size() && vertex[w] == v; });
+      for(const std::size_t v : face) // one of those that have the position, if it was doubled
+        shared += std::any_of(file.polygons[p].begin(), file.polygons[p].end(), [&](std::size_t w) {
+          return w < vertex.size() && vertex[w] != no_vertex && origin[vertex[w]] == origin[v];
+        });
       if(shared > best.first)
         best = {shared, p};
     }
     return best.second;
   };
-  for(Mesh_finding* const finding : {&diagnosis.zero_area_faces, &diagnosis.overflowing_faces})
-    if(finding->count != 0)
-      finding->first = face_of_file(finding->first);
+  const auto vertex_of_file = [&](const std::size_t v) { return origin[v]; };
+  const auto renumber = [](Mesh_finding& finding, const auto& number, const bool both) {
+    if(finding.count == 0)
+      return;
+    finding.first = number(finding.first);
+    if(both)
+      finding.second = number(finding.second);
+  };
+  for(Mesh_finding* const finding : {&d.massless_vertices, &d.non_manifold_vertices})
+    renumber(*finding, vertex_of_file, false);
   for(Mesh_finding* const finding :
-      {&diagnosis.massless_vertices, &diagnosis.non_manifold_vertices})
-    if(finding->count != 0)
-      finding->first = origin[finding->first];
+      {&d.non_manifold_edges, &d.zero_length_edges, &d.coincident_vertices})
+    renumber(*finding, vertex_of_file, true);
+  for(Mesh_finding* const finding :
+      {&d.repeated_vertices, &d.polygons, &d.zero_area_faces, &d.overflowing_faces})
+    renumber(*finding, face_of_file, false);
+  for(Mesh_finding* const finding : {&d.duplicate_faces, &d.misoriented_edges})
+    renumber(*finding, face_of_file, true);
+  d.number_of_vertices = file.points.size();
+  d.number_of_faces = repaired.polygons.empty() ? 0 : file.polygons.size();
+}
+
+// " 2 faces turned round, 1 isolated vertex left out"
+std::string list_of(const std::vector<Repair>& changes)
+{
+  std::string list;
+  for(const Repair& change : changes)
+    list += (list.empty() ? " " : ", ") + std::to_string(change.count) + " " + change.what();
+  return list;
 }
 
 std::string help_with(const Mesh_diagnosis& diagnosis, const Mending mending)
@@ -282,8 +304,12 @@ void build(Input_mesh& input, const std::string& name, const Mending mending, Po
   if(!obstacles.empty())
     throw std::runtime_error(name + " cannot be used as it is: " + obstacles.front() +
                              help_with(diagnosis, mending) + ".");
-  if(diagnosis.number_of_faces == 0)
-    throw std::runtime_error(name + " has no faces left" + help_with(diagnosis, mending) + ".");
+  if(diagnosis.number_of_faces == 0) {
+    const std::string changes = list_of(input.changes);
+    throw std::runtime_error(name + " has no faces left" +
+                             (changes.empty() ? help_with(diagnosis, mending) : ":" + changes) +
+                             ".");
+  }
   std::vector<std::size_t> place(soup.points.size(), no_vertex), file_vertices;
   for(const auto& p : soup.polygons)
     for(const std::size_t v : p)
@@ -433,9 +459,7 @@ void set_face_attributes(Input_mesh& input, const Polygons& polygons, const Attr
 
 std::string Input_mesh::changes_of(const std::string& path) const
 {
-  std::string list;
-  for(const Repair& change : changes)
-    list += (list.empty() ? " " : ", ") + std::to_string(change.count) + " " + change.what();
+  const std::string list = list_of(changes);
   if(list.empty())
     return "";
   std::string debris;

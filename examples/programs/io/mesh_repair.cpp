@@ -18,6 +18,7 @@
 #include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
@@ -518,11 +519,14 @@ void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
   log.add("degenerate face removed", "degenerate faces removed", before - mesh.number_of_faces());
 }
 
-// What no flip and no collapse mends: faces without area whose vertex has no others. Such as hang
-// on an edge, or stand alone, have border edges and go, those beneath them next.
-void remove_massless_borders(Exact_mesh& mesh, Repair_log& log)
+// Removes faces without area that no flip and no collapse mends: components of such faces alone,
+// and from the border on those at vertices that have no others.
+void remove_massless_faces(Exact_mesh& mesh, Repair_log& log)
 {
-  std::vector<char> has_area(mesh.number_of_faces(), 0), has_mass(mesh.number_of_vertices(), 0);
+  const auto part = mesh.add_property_map<Exact_mesh::Face_index, std::size_t>("f:part").first;
+  const std::size_t parts = PMP::connected_components(mesh, part);
+  std::vector<char> has_area(mesh.number_of_faces(), 0), has_mass(mesh.number_of_vertices(), 0),
+      part_has_area(parts, 0);
   const auto row = [&](const Exact_mesh::Vertex_index v) {
     const auto& p = mesh.point(v);
     return Eigen::RowVector3d(p.x(), p.y(), p.z());
@@ -532,6 +536,7 @@ void remove_massless_borders(Exact_mesh& mesh, Repair_log& log)
     const auto h = mesh.halfedge(f);
     const auto u = mesh.source(h), v = mesh.target(h), w = mesh.target(mesh.next(h));
     has_area[f] = CGAL::Spectral_geometry::triangle_cotangents(row(u), row(v), row(w)).area != 0;
+    part_has_area[part[f]] |= has_area[f];
     for(const auto x : {u, v, w})
       has_mass[x] |= has_area[f];
   }
@@ -543,12 +548,13 @@ void remove_massless_borders(Exact_mesh& mesh, Repair_log& log)
     if(mesh.is_removed(f) || has_area[f])
       continue;
     const auto h = mesh.halfedge(f);
-    bool massless = false, at_border = false;
+    bool massless = false, at_border = !part_has_area[part[f]];
     std::vector<Exact_mesh::Face_index> beside;
     for(const auto g : mesh.halfedges_around_face(h)) {
       massless = massless || !has_mass[mesh.target(g)];
-      at_border = at_border || mesh.is_border(mesh.opposite(g));
-      if(!mesh.is_border(mesh.opposite(g)))
+      if(mesh.is_border(mesh.opposite(g)))
+        at_border = true;
+      else
         beside.push_back(mesh.face(mesh.opposite(g)));
     }
     if(!massless || !at_border)
@@ -559,6 +565,10 @@ void remove_massless_borders(Exact_mesh& mesh, Repair_log& log)
   }
   mesh.collect_garbage();
   log.add("degenerate face removed", "degenerate faces removed", removed);
+  const std::size_t before = std::size_t(std::count(part_has_area.begin(), part_has_area.end(), 1));
+  if(const std::size_t after = PMP::connected_components(mesh, part); after > before)
+    log.add("part separated that only faces without area had joined",
+            "parts separated that only faces without area had joined", after - before);
 }
 
 // The result in the order of `input`, and how the vertices of both belong together: by their
@@ -621,10 +631,10 @@ Polygon_soup repaired_soup(const Polygon_soup& file, Repair_log& log,
           PMP::stitch_borders(mesh));
   mesh.collect_garbage();
   const auto diagnosis = diagnose(to_soup(mesh));
-  if(diagnosis.zero_area_faces.count != 0 || diagnosis.overflowing_faces.count != 0)
+  if(diagnosis.zero_area_faces.count != 0 || diagnosis.overflowing_faces.count != 0) {
     remove_degenerate_faces(mesh, log);
-  if(diagnosis.massless_vertices.count != 0)
-    remove_massless_borders(mesh, log);
+    remove_massless_faces(mesh, log);
+  }
   log.add("vertex doubled to separate sheets", "vertices doubled to separate sheets",
           PMP::duplicate_non_manifold_vertices(mesh));
   log.add("isolated vertex removed", "isolated vertices removed",

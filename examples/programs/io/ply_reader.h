@@ -71,6 +71,7 @@ private:
     std::size_t coordinate = 3;                      // 0 to 2 for x to z
     std::string name;
     bool vertices = false;             // of a face
+    bool indices = false;              // of vertices: that, or a strip
     bool texture = false;              // at the corners of a face, two numbers each
     std::size_t attribute = no_vertex; // its number among those of its element
   };
@@ -182,6 +183,7 @@ private:
     if(vertex && !list && (name == "x" || name == "y" || name == "z"))
       property.coordinate = std::size_t(name[0] - 'x');
     property.vertices = face && list && (name == "vertex_indices" || name == "vertex_index");
+    property.indices = property.vertices || (list && element == "tristrips");
     property.texture = face && list && name == "texcoord";
     Attributes& attributes = vertex ? m_soup.attributes : m_soup.face_attributes;
     if(!vertex && !face)
@@ -296,25 +298,30 @@ private:
     if(!read_value(property.count_type, count))
       return false;
     if(!is_integer(count) || count < 0)
-      return refuse_value("the list " + quoted(property.name) + " has a length", count);
+      return refuse_value(property, "length", count, "a whole number from 0");
     m_list.clear();
     for(double k = 0; k < count; ++k) {
       if(!read_value(property.type, value))
         return false;
-      if(property.vertices && !is_integer(value))
-        return refuse_value("the list " + quoted(property.name) + " has a vertex", value);
+      if(property.indices && !is_integer(value))
+        return refuse_value(property, "vertex", value, "a whole number");
       m_list.push_back(value);
     }
     return true;
   }
 
-  static bool is_integer(const double value) { return value == std::floor(value); }
+  static bool is_integer(const double value)
+  {
+    return std::isfinite(value) && value == std::floor(value);
+  }
 
-  // What no count and no index can be.
-  bool refuse_value(const std::string& what, const double value)
+  bool refuse_value(const Property& property, const char* what, const double value,
+                    const char* expected)
   {
     std::ostringstream text;
-    text << what << ' ' << value << " where a whole number is expected";
+    text.precision(15);
+    text << "its list " << quoted(property.name) << " has the " << what << ' ' << value << " where "
+         << expected << " is expected";
     m_refused = text.str();
     return false;
   }

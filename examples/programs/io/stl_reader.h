@@ -50,12 +50,15 @@ public:
       throw std::runtime_error("its header announces " + std::to_string(faces) +
                                " faces, but it is cut off after " +
                                std::to_string((size - 84) / 50));
-    else if(size >= 84 + 50 * (faces + 1)) // fewer bytes are no face
-      throw std::runtime_error("its header announces " + std::to_string(faces) + " faces, but " +
-                               std::to_string((size - 84) / 50) +
-                               " follow: write the right number in its bytes 80 to 83");
-    else
+    else {
       reader.read_binary(file, faces, start.find("COLOR=") != std::string::npos);
+      std::array<char, 50> more; // than zeros that fill a block up
+      while(file.read(more.data(), 50))
+        if(std::any_of(more.begin(), more.end(), [](const char c) { return c != 0; }))
+          throw std::runtime_error("its header announces " + std::to_string(faces) +
+                                   " faces, but more follow: write the right number, up to " +
+                                   std::to_string((size - 84) / 50) + ", in its bytes 80 to 83");
+    }
     return std::move(reader.m_soup);
   }
 

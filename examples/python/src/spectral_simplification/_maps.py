@@ -192,9 +192,10 @@ def zoom_out(
     phi, image = source.vectors, target.M @ target.vectors
     T = point_map(C, source, target, threads)
     while len(C) < k:
-        answer = progress("zoom_out", (len(C) - first) / (k - first)) if progress else None
-        if answer is not None and not answer:
-            raise _core.Cancelled("The progress callback returned False. Nothing is returned.")
+        if progress is not None:
+            answer = progress("zoom_out", (len(C) - first) / (k - first))
+            if answer is not None and not answer:
+                raise _core.Cancelled("The progress callback returned False. Nothing is returned.")
         n = min(len(C) + step, k)
         C = image[:, :n].T @ phi[T, :n]
         T = point_map(C, source, target, threads)

@@ -69,10 +69,9 @@ inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrice
           ? "ask for more vertices, or allow self-intersections."
       : refusals.topology >= refusals.placement && (components > 1 || handles > 0)
           ? "ask for more vertices, or take small components and handles away."
-      : refusals.geometry > refusals.placement
-          ? "ask for more vertices, or constrain less; CGAL never folds faces to within a degree "
-            "of "
-            "each other, as at the rim of a thin body."
+      : refusals.geometry > refusals.topology && refusals.geometry > refusals.placement
+          ? "ask for more vertices, or constrain and keep less; CGAL folds no faces to within a "
+            "degree of each other, as at the rim of a thin body."
           : "ask for more vertices, or constrain and keep less.");
 }
 
