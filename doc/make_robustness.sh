@@ -257,6 +257,8 @@ printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 9\n' | small "an 
 printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' | small "an isolated vertex" "left out"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' | small "a coordinate that is no number" "refused: no face is left"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n' | small "points on a line" "refused"
+printf 'OFF\n6 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n3 1 0 4\n3 4 0 5\n' |
+  small "faces without area on an edge" "refused; repaired"
 printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n' |
   small "a seam" "kept open, with a warning; stitched by the repair"
 printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1.00001 0 0\n1 1 0\n0 1 -0.00001\n3 0 1 2\n3 3 4 5\n' |

@@ -35,7 +35,7 @@ feed()
   file=$1
   shift
   rm -f out.off
-  timeout 60 "$program" "$file" out.off --vertices 20 --eigenvectors 4 --no-evaluation --quiet "$@" >said 2>complained
+  timeout 300 "$program" "$file" out.off --vertices 20 --eigenvectors 4 --no-evaluation --quiet "$@" >said 2>complained
   status=$?
   case $status in
     0)
