@@ -113,6 +113,7 @@ public:
     , m_limits(limits)
     , m_given(V)
     , m_T(T)
+    , m_on_border(border_vertices(T, V.rows()))
     , m_fine(fine)
     , m_P(P)
     , m_F(F)
@@ -200,11 +201,9 @@ private:
   void check_areas() const
   {
     const Positions& V = m_start;
-    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
-      const auto t = triangle_cotangents(V.row(m_T(f, 0)), V.row(m_T(f, 1)), V.row(m_T(f, 2)));
-      require(t.area > 0, "relocation: ", face_name(f),
-              " of the coarse mesh has no area; remove it.");
-    }
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f)
+      require(triangle_cotangents(V.row(m_T(f, 0)), V.row(m_T(f, 1)), V.row(m_T(f, 2))).area > 0,
+              "relocation: ", face_name(f), " of the coarse mesh has no area; remove it.");
   }
 
   // Goals change every fifth step, and the objective with them: what counts is what steps gain.
@@ -242,7 +241,7 @@ private:
   // its row in P came from before; where it came from none its row stays.
   void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P, const Positions& V) const
   {
-    std::vector<char> on_border = border_vertices(m_T, V.rows());
+    std::vector<char> on_border = m_on_border;
     const auto own = m_border.loops_of_rows(m_P);
     std::vector<Eigen::Triplet<double>> entries;
     for(std::size_t w = 0; w < own.size(); ++w) {
@@ -320,14 +319,13 @@ private:
   Positions first_positions(const std::vector<bool>& fixed)
   {
     Positions V = m_given;
-    const std::vector<char> on_boundary = border_vertices(m_T, V.rows());
     const std::vector<Eigen::Index> face_of = faces_at_vertices(m_T, V.rows());
     const auto loops = m_border.loops_of_rows(m_P);
     bool beside = false; // whether a vertex off the boundary is elsewhere
     for(Eigen::Index v = 0; v < V.rows(); ++v) {
       if(face_of[v] < 0 || (!fixed.empty() && fixed[v]))
         continue;
-      if(!on_boundary[v]) {
+      if(!m_on_border[v]) {
         if(m_options.signals != Signals::carried &&
            m_followed.is_beside_another_part(v, V.row(v))) {
           V.row(v) = m_followed(v, V.row(v)).point.transpose();
@@ -356,7 +354,7 @@ private:
       back = false;
       const auto go_back = [&](const Eigen::Index f, const bool from_boundary = true) {
         for(const int v : m_T.row(f))
-          if(V.row(v) != m_given.row(v) && (from_boundary || !on_boundary[v])) {
+          if(V.row(v) != m_given.row(v) && (from_boundary || !m_on_border[v])) {
             V.row(v) = m_given.row(v);
             back = true;
           }
@@ -378,11 +376,10 @@ private:
 
   void set_guards(const std::vector<bool>& fixed)
   {
-    const std::vector<char> on_boundary = border_vertices(m_T, m_start.rows());
     for(Eigen::Index v = 0; v < m_start.rows(); ++v)
-      if((!fixed.empty() && fixed[v]) || (on_boundary[v] && m_options.fix_boundary))
+      if((!fixed.empty() && fixed[v]) || (m_on_border[v] && m_options.fix_boundary))
         m_guards.fix(v);
-      else if(on_boundary[v])
+      else if(m_on_border[v])
         m_guards.keep_on(v, m_border,
                          [&](const std::size_t s) { return is_near_border(int(v), s); });
     if(m_options.signals != Signals::carried) {
@@ -489,6 +486,7 @@ private:
   Relocation_limits m_limits;
   Positions m_given;
   Eigen::MatrixXi m_T;
+  std::vector<char> m_on_border; // by coarse vertex
   const Mesh_matrices& m_fine;
   const Eigen::SparseMatrix<double>& m_P;
   const Eigen::MatrixXd &m_F, &m_Z;
