@@ -35,6 +35,8 @@ awk 'BEGIN { print "OFF\n16 24 0"; for(i = 0; i < 2; ++i) for(x = 0; x < 2; ++x)
   n = split("0 2 1 1 2 3 4 5 6 5 7 6 0 1 4 1 5 4 2 6 3 3 6 7 0 4 2 2 4 6 1 3 5 3 7 5", v)
   for(i = 0; i < 2; ++i) for(k = 1; k < n; k += 3) print 3, v[k] + 8 * i, v[k + 1] + 8 * i, v[k + 2] + 8 * i }' >cubes.off
 refuses "eigenvalues that are zero" "first eigenvalues of 'cubes.off' are 0 or equal" cubes.off --vertices 12 --eigenvectors 3
+refuses "a simplifier that fails" "spectral, paper.* N = 5, is missing: The target is 5 vertices" cubes.off --vertices 5 --eigenvectors 12 \
+  --judge lumped --only "spectral, paper"
 refuses "too many sources" "of memory, but .* lower --sources" shape.off --vertices 200 --eigenvectors 20 --sources 100000000000
 refuses "an unknown mass" "heavy" shape.off --vertices 200 --judge heavy
 refuses "an operator without a mass" "NAME=L.mtx,M.mtx,P.mtx" shape.off --rival-operators x=shape.off

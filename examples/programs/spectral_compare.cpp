@@ -330,14 +330,15 @@ private:
     note_missing_modes(row);
   }
 
+  // Once for all.
   void note_missing_modes(const Simplified& row)
   {
-    if(m_has_all_modes && row.judgements.front().C.rows() < m_arguments.eigenvectors)
-      m_comparison.notes.push_back(
-          "Eigenvalues and distances of coarse meshes that have fewer than " +
-          std::to_string(m_arguments.eigenvectors) + " modes are judged by those that they have.");
-    m_has_all_modes =
-        m_has_all_modes && row.judgements.front().C.rows() >= m_arguments.eigenvectors;
+    if(!m_has_all_modes || row.judgements.front().C.rows() >= m_arguments.eigenvectors)
+      return;
+    m_has_all_modes = false;
+    m_comparison.notes.push_back(
+        "Eigenvalues and distances of coarse meshes that have fewer than " +
+        std::to_string(m_arguments.eigenvectors) + " modes are judged by those that they have.");
   }
 
   // Judges the mesh with fitted operators. Its seconds are those of the mesh and of the fits in all

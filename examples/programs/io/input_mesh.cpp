@@ -195,9 +195,9 @@ std::string still_cut(const Mesh_diagnosis& diagnosis, const std::vector<std::si
          " of INPUT (counted from 0): functions may jump there.";
 }
 
-// Gives findings in a repaired soup the numbers of the file, and the totals. `vertex` says which of
-// the soup each vertex of the file has become, `origin` the contrary; a face has the number of the
-// polygon with most of its vertices.
+// Gives obstacles in a repaired soup the numbers of the file, and the totals. `vertex` says which
+// of the soup each vertex of the file has become, `origin` the contrary; a face has the number of
+// the polygon with most of its vertices.
 void number_as_in_file(Mesh_diagnosis& d, const Polygon_soup& repaired, const Polygon_soup& file,
                        const std::vector<std::size_t>& vertex,
                        const std::vector<std::size_t>& origin)
@@ -216,24 +216,14 @@ void number_as_in_file(Mesh_diagnosis& d, const Polygon_soup& repaired, const Po
     }
     return best.second;
   };
-  const auto vertex_of_file = [&](const std::size_t v) { return origin[v]; };
-  const auto renumber = [](Mesh_finding& finding, const auto& number, const bool both) {
-    if(finding.count == 0)
-      return;
-    finding.first = number(finding.first);
-    if(both)
-      finding.second = number(finding.second);
-  };
-  for(Mesh_finding* const finding : {&d.massless_vertices, &d.non_manifold_vertices})
-    renumber(*finding, vertex_of_file, false);
-  for(Mesh_finding* const finding :
-      {&d.non_manifold_edges, &d.zero_length_edges, &d.coincident_vertices})
-    renumber(*finding, vertex_of_file, true);
-  for(Mesh_finding* const finding :
-      {&d.repeated_vertices, &d.polygons, &d.zero_area_faces, &d.overflowing_faces})
-    renumber(*finding, face_of_file, false);
-  for(Mesh_finding* const finding : {&d.duplicate_faces, &d.misoriented_edges})
-    renumber(*finding, face_of_file, true);
+  // A halfedge mesh without isolated vertices has no other obstacles.
+  if(d.massless_vertices.count != 0)
+    d.massless_vertices.first = origin[d.massless_vertices.first];
+  for(Mesh_finding* const finding : {&d.overflowing_faces, &d.duplicate_faces})
+    if(finding->count != 0) {
+      finding->first = face_of_file(finding->first);
+      finding->second = face_of_file(finding->second);
+    }
   d.number_of_vertices = file.points.size();
   d.number_of_faces = repaired.polygons.empty() ? 0 : file.polygons.size();
 }

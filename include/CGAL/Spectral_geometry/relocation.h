@@ -312,10 +312,10 @@ private:
   }
 
   // The positions that were given, but for two kinds of vertices. Those of the boundary go to the
-  // boundary of the fine mesh: collapses leave them on chords of it. Those to which another limb is
-  // nearer go to their own, where closest points find it. A vertex stays where a triangle would
-  // turn over, become a needle or go through another one, one off the boundary also where the fine
-  // surface would be left behind; it may get there later.
+  // boundary of the fine mesh: collapses draw them off it. Those to which another limb is nearer go
+  // to their own, where closest points find it. A vertex stays where a triangle would turn over,
+  // become a needle or go through another one, one off the boundary also where the fine surface
+  // would be left behind; it may get there later.
   Positions first_positions(const std::vector<bool>& fixed)
   {
     Positions V = m_given;

@@ -150,9 +150,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   using Policies = Spectral_policies<TriangleMesh, Geom_traits, Vertex_point_map>;
   const Eigen::Index K = number_of_signals(given);
   const auto weights = [&] {
-    return weights_for_target(
-        target, K,
-        Eigen::Index(component_sizes(Spectral_geometry::mesh_matrices(mesh, np)).size()));
+    return weights_for_target(target, K,
+                              number_of_components(Spectral_geometry::mesh_matrices(mesh, np)));
   };
   // No copy where there is no need: signals may be large.
   std::optional<Spectral_edge_collapse_options> narrowed;

@@ -482,11 +482,11 @@ inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& 
       Spectral_geometry::filtered_signals(op, options.number_of_eigenvectors, how));
   Spectral_basis basis;
   Eigen::VectorXd squares(filtered->Z.cols());
-  Spectral_geometry::internal::for_each_task(squares.size(), options.threads,
-                                             [&](const Eigen::Index k) {
-                                               const Eigen::VectorXd BZ = op.B * filtered->Z.col(k);
-                                               squares[k] = filtered->Z.col(k).dot(BZ);
-                                             });
+  const auto take_square = [&](const Eigen::Index k) {
+    const Eigen::VectorXd BZ = op.B * filtered->Z.col(k);
+    squares[k] = filtered->Z.col(k).dot(BZ);
+  };
+  Spectral_geometry::internal::for_each_task(squares.size(), options.threads, take_square);
   basis.sum_of_squares = area * area * squares.sum();
   if(is_rounding(basis.sum_of_squares, double(options.number_of_eigenvectors), op.L.rows()))
     basis.sum_of_squares = 0;

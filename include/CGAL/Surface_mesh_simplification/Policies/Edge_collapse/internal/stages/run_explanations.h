@@ -17,55 +17,15 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// A connected component, and what a target needs for it.
-struct Component_size
-{
-  std::size_t vertices = 0, faces = 0;
-  bool closed = true;
-  double area = 0;
-
-  /// What no collapse goes below: 3 vertices, and if closed as many as its handles need, 4 without
-  /// any (Heawood's bound, by Euler's formula).
-  std::size_t least() const
-  {
-    if(!closed || faces == 0) // isolated vertices are refused elsewhere
-      return faces == 0 ? 0 : 3;
-    const double characteristic = double(vertices) - double(faces) / 2;
-    const double bound = (7 + std::sqrt((std::max)(49 - 24 * characteristic, 1.))) / 2;
-    return (std::min)(vertices, std::size_t(std::ceil(bound - 1e-9)));
-  }
-
-  /// With how many a little of the shape is left: collapses of lattices of 1 to 81 handles end at
-  /// some 3.5 for each handle.
-  std::size_t of_shape() const
-  {
-    // Negative where sheets meet at a vertex, which is refused elsewhere.
-    const std::ptrdiff_t genus = closed ? (2 + std::ptrdiff_t(faces / 2 - vertices)) / 2 : 0;
-    return (std::max)(least(), genus <= 0 ? 0 : std::size_t(6 + 4 * genus));
-  }
-};
-
-inline std::vector<Component_size> component_sizes(const Spectral_geometry::Mesh_matrices& mesh)
+inline Eigen::Index number_of_components(const Spectral_geometry::Mesh_matrices& mesh)
 {
   const std::vector<Eigen::Index> component =
       Spectral_geometry::internal::connected_components(mesh.V.rows(), mesh.T);
-  std::vector<Component_size> result(
-      std::size_t(*std::max_element(component.begin(), component.end()) + 1));
-  const auto of = [&](const int v) -> Component_size& { return result[component[v]]; };
-  for(int v = 0; v < int(mesh.V.rows()); ++v)
-    ++of(v).vertices;
-  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
-    ++of(mesh.T(f, 0)).faces;
-    of(mesh.T(f, 0)).area += Spectral_geometry::internal::face_normal(mesh.V, mesh.T, f).norm() / 2;
-  }
-  for(const auto& edge : Spectral_geometry::internal::boundary_edges(mesh.T))
-    of(edge.first).closed = false;
-  return result;
+  return *std::max_element(component.begin(), component.end()) + 1;
 }
 
-/// Handles of so many components together, by Euler's formula.
-inline Eigen::Index genus(const Spectral_geometry::Mesh_matrices& mesh,
-                          const Eigen::Index components)
+/// Handles of all components together, by Euler's formula.
+inline Eigen::Index genus(const Spectral_geometry::Mesh_matrices& mesh)
 {
   using namespace Spectral_geometry::internal;
   const auto border = boundary_edges(mesh.T);
@@ -79,7 +39,7 @@ inline Eigen::Index genus(const Spectral_geometry::Mesh_matrices& mesh,
     loops.insert(loop_of[i]);
   const Eigen::Index edges = (3 * mesh.T.rows() + Eigen::Index(border.size())) / 2;
   const Eigen::Index characteristic = mesh.V.rows() - edges + mesh.T.rows();
-  return (2 * components - characteristic - Eigen::Index(loops.size())) / 2;
+  return (2 * number_of_components(mesh) - characteristic - Eigen::Index(loops.size())) / 2;
 }
 
 /// Why a mesh that has run out of edges cannot be reduced further, and what helps. `wanted`: the
@@ -88,8 +48,7 @@ inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrice
                                            const Spectral_refusals& refusals,
                                            const std::size_t wanted)
 {
-  const Eigen::Index components = Eigen::Index(component_sizes(mesh).size()),
-                     handles = genus(mesh, components);
+  const Eigen::Index components = number_of_components(mesh), handles = genus(mesh);
   return sentence(
       "The mesh stopped at ", mesh.V.rows(), " vertices",
       wanted == 0 ? "" : sentence(" instead of ", wanted),
@@ -148,6 +107,52 @@ inline void warn_of_error(std::vector<std::string>& warnings, const double relat
                                 "signals; ask for more vertices or fewer eigenvectors, or take "
                                 "small components away. Where much is kept or constrained, tiny "
                                 "faces there may be the reason."));
+}
+
+/// A connected component, and what a target needs for it.
+struct Component_size
+{
+  std::size_t vertices = 0, faces = 0;
+  bool closed = true;
+  double area = 0;
+
+  /// What no collapse goes below: 3 vertices, and if closed as many as its handles need, 4 without
+  /// any (Heawood's bound, by Euler's formula).
+  std::size_t least() const
+  {
+    if(!closed || faces == 0) // isolated vertices are refused elsewhere
+      return faces == 0 ? 0 : 3;
+    const double characteristic = double(vertices) - double(faces) / 2;
+    const double bound = (7 + std::sqrt((std::max)(49 - 24 * characteristic, 1.))) / 2;
+    return (std::min)(vertices, std::size_t(std::ceil(bound - 1e-9)));
+  }
+
+  /// With how many a little of the shape is left: collapses of lattices of 1 to 81 handles end at
+  /// some 3.5 for each handle.
+  std::size_t of_shape() const
+  {
+    // Negative where sheets meet at a vertex, which is refused elsewhere.
+    const std::ptrdiff_t genus = closed ? (2 + std::ptrdiff_t(faces / 2 - vertices)) / 2 : 0;
+    return (std::max)(least(), genus <= 0 ? 0 : std::size_t(6 + 4 * genus));
+  }
+};
+
+inline std::vector<Component_size> component_sizes(const Spectral_geometry::Mesh_matrices& mesh)
+{
+  const std::vector<Eigen::Index> component =
+      Spectral_geometry::internal::connected_components(mesh.V.rows(), mesh.T);
+  std::vector<Component_size> result(
+      std::size_t(*std::max_element(component.begin(), component.end()) + 1));
+  const auto of = [&](const int v) -> Component_size& { return result[component[v]]; };
+  for(int v = 0; v < int(mesh.V.rows()); ++v)
+    ++of(v).vertices;
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
+    ++of(mesh.T(f, 0)).faces;
+    of(mesh.T(f, 0)).area += Spectral_geometry::internal::face_normal(mesh.V, mesh.T, f).norm() / 2;
+  }
+  for(const auto& edge : Spectral_geometry::internal::boundary_edges(mesh.T))
+    of(edge.first).closed = false;
+  return result;
 }
 
 /// The least target that is of use: each component has a little of its shape, and as many vertices
