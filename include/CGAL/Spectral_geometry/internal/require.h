@@ -19,28 +19,33 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-template <class Part>
-std::string in_words(const Part& part)
+inline void add_words(std::string& text, const double number)
 {
-  if constexpr(std::is_floating_point<Part>::value) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << part;
-    return out.str();
-  } else if constexpr(std::is_integral<Part>::value)
-    return std::to_string(part);
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << number;
+  text += out.str();
+}
+
+template <class Part>
+void add_words(std::string& text, const Part& part)
+{
+  if constexpr(std::is_integral<Part>::value)
+    text += std::to_string(part);
   else if constexpr(std::is_convertible<Part, std::string>::value)
-    return part;
+    text += part;
   else
-    return part();
+    text += part();
 }
 
 /// What the parts say: strings, numbers, and names as below, which nobody makes before they are
 /// needed.
 template <class... Part>
-std::string sentence(const Part&... parts)
+std::string sentence(const Part... parts)
 {
-  return (in_words(parts) + ...);
+  std::string text;
+  (add_words(text, parts), ...);
+  return text;
 }
 
 /// Throws `std::invalid_argument` with the sentence that the parts make, unless `holds`.

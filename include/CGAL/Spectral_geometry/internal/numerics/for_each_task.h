@@ -16,17 +16,14 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Calls f(0) .. f(count - 1) in any order, `grain` of them in a row on one of at most so many
-/// threads, which `start(worker)` makes; the caller is one of them, and where the system has no
-/// more it does with those it has got.
-///
-/// What a call computes must depend on its index alone, and sums over tasks are up to the caller,
-/// in the order of the tasks, so that no result depends on the number of threads. What one throws,
-/// on whichever thread, the caller gets when all are back; calls that nobody has begun with are
-/// left out then.
-template <class Function, class Start>
-void for_each_task(const Eigen::Index count, const int threads, const Function& f, const int grain,
-                   const Start& start)
+/// Has `take(begin, end)` called for ranges of `grain` numbers that make 0 .. count - 1, as
+/// for_each_task() says; `start(worker)` makes a thread.
+inline void share_tasks(
+    const Eigen::Index count, const int threads, const int grain,
+    const std::function<void(Eigen::Index, Eigen::Index)>& take,
+    const std::function<std::thread(const std::function<void()>&)>& start = [](const auto& worker) {
+      return std::thread(worker);
+    })
 {
   std::atomic<Eigen::Index> next{0};
   std::mutex mutex;
@@ -34,8 +31,7 @@ void for_each_task(const Eigen::Index count, const int threads, const Function& 
   const auto take_part = [&] {
     try {
       for(Eigen::Index begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain))
-        for(Eigen::Index i = begin; i < (std::min)(begin + grain, count); ++i)
-          f(i);
+        take(begin, (std::min)(begin + grain, count));
     } catch(...) {
       const std::lock_guard<std::mutex> lock(mutex);
       if(!error)
@@ -66,11 +62,22 @@ void for_each_task(const Eigen::Index count, const int threads, const Function& 
     std::rethrow_exception(error);
 }
 
+/// Calls f(0) .. f(count - 1) in any order, `grain` of them in a row on one of at most so many
+/// threads; the caller is one of them, and where the system has no more it does with those it has
+/// got.
+///
+/// What a call computes must depend on its index alone, and sums over tasks are up to the caller,
+/// in the order of the tasks, so that no result depends on the number of threads. What one throws,
+/// on whichever thread, the caller gets when all are back; calls that nobody has begun with are
+/// left out then.
 template <class Function>
 void for_each_task(const Eigen::Index count, const int threads, const Function& f,
                    const int grain = 1)
 {
-  for_each_task(count, threads, f, grain, [](const auto& worker) { return std::thread(worker); });
+  share_tasks(count, threads, grain, [&f](Eigen::Index i, const Eigen::Index end) {
+    for(; i < end; ++i)
+      f(i);
+  });
 }
 
 /// Calls f(first, end) for ranges of `at_once` numbers of 0 .. size - 1; the last may be shorter.
