@@ -29,6 +29,8 @@ refuses "no size" "vertices is missing" shape.off
 refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 200
 refuses "a size that is no number" "'x'" shape.off --vertices 200,x
 refuses "a size that is too large" "has [0-9]* vertices" shape.off --vertices 100000
+awk 'NR == 2 { n = $1++ } { print } NR == n + 2 { print "9 9 9" }' shape.off >isolated.off
+refuses "more vertices than are left" "and $(sed -n 's/ .*//; 2p' isolated.off) before it was cleaned" isolated.off --vertices "$(sed -n 's/ .*//; 2p' isolated.off)"
 refuses "too many eigenvectors" "must be below" shape.off --vertices 200 --eigenvectors 100000 --report report.html
 refuses "too few eigenvectors" "eigenvectors is 2, it must be at least 3" shape.off --vertices 200 --eigenvectors 2
 awk 'BEGIN { print "OFF\n16 24 0"; for(i = 0; i < 2; ++i) for(x = 0; x < 2; ++x) for(y = 0; y < 2; ++y) for(z = 0; z < 2; ++z) print x + 3 * i, y, z

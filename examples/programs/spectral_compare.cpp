@@ -89,7 +89,8 @@ public:
   // Returns the exit status: 1 where rivals were refused, and all others stand in the results.
   int run()
   {
-    const std::vector<std::size_t> sizes = target_sizes(m_arguments, m_fine.number_of_vertices());
+    const std::vector<std::size_t> sizes =
+        target_sizes(m_arguments, m_fine.number_of_vertices(), m_input.size_of(m_arguments.mesh));
     std::vector<Read_rival> rivals; // what is wrong with their files is known before the work
     for(const Rival& rival : m_arguments.rivals)
       try_rival(rival, [&] { rivals.push_back(read_rival(rival, sizes)); });

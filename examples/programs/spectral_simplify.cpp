@@ -751,7 +751,7 @@ int run(Arguments a)
           : "";
   const std::size_t target =
       resolve_sizes(a, num_vertices(input.mesh), kept.size(), vertices_for_faces(a, input.mesh),
-                    input.numbering.number_of_file_vertices());
+                    input.size_of(a.input));
   SMS::Spectral_edge_collapse_options options =
       options_of_run(a, target, input.numbering, std::move(kept), bar);
   options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);

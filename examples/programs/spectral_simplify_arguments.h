@@ -193,13 +193,10 @@ int run(Arguments a);
 
 // Sets the levels, and returns the number of vertices to simplify to, for a mesh of n vertices, of
 // which `kept` stay; throws when one of these or K does not suit it. `for_faces`: the number of
-// vertices that --faces means; `in_file`: how many the mesh had before anything was changed in it.
+// vertices that --faces means; `size`: how many the mesh has, in words.
 inline std::size_t resolve_sizes(Arguments& a, const std::size_t n, const std::size_t kept,
-                                 const std::size_t for_faces, const std::size_t in_file)
+                                 const std::size_t for_faces, const std::string& size)
 {
-  const std::string size =
-      "'" + a.input + "' has " + std::to_string(n) + " vertices" +
-      (in_file == n ? "" : ", and " + std::to_string(in_file) + " before it was cleaned");
   a.levels.clear();
   for(const Vertex_target& level : a.level_targets)
     a.levels.push_back(level.of(n));

@@ -150,16 +150,16 @@ inline Compare_arguments parse_compare_arguments(int argc, const char* const* ar
   return a;
 }
 
-// The sizes of --vertices for a mesh of n vertices, each once.
-inline std::vector<std::size_t> target_sizes(const Compare_arguments& a, std::size_t n)
+// The sizes of --vertices for a mesh of n vertices, each once; `has`: how many it has, in words.
+inline std::vector<std::size_t> target_sizes(const Compare_arguments& a, const std::size_t n,
+                                             const std::string& has)
 {
   std::vector<std::size_t> result;
   for(const Vertex_target& target : a.targets) {
     const std::size_t size = target.of(n);
     if(size < 4 || size > n)
-      throw std::runtime_error("--vertices asks for " + std::to_string(size) + ", but '" + a.mesh +
-                               "' has " + std::to_string(n) +
-                               " vertices and fewer than 4 are no mesh.");
+      throw std::runtime_error("--vertices asks for " + std::to_string(size) + ", but " + has +
+                               "; fewer than 4 are no mesh.");
     if(std::find(result.begin(), result.end(), size) == result.end())
       result.push_back(size);
   }

@@ -447,6 +447,13 @@ void set_face_attributes(Input_mesh& input, const Polygons& polygons, const Attr
 
 } // namespace
 
+std::string Input_mesh::size_of(const std::string& path) const
+{
+  const std::size_t n = mesh.number_of_vertices(), in_file = numbering.number_of_file_vertices();
+  return "'" + path + "' has " + std::to_string(n) + " vertices" +
+         (in_file == n ? "" : ", and " + std::to_string(in_file) + " before it was cleaned");
+}
+
 std::string Input_mesh::changes_of(const std::string& path) const
 {
   const std::string list = list_of(changes);

@@ -35,6 +35,9 @@ struct Input_mesh
   // "'bunny.obj': 2 faces turned round, 1113 isolated vertices left out."; empty if nothing was
   // changed.
   std::string changes_of(const std::string& path) const;
+
+  // "'bunny.obj' has 405 vertices, and 430 before it was cleaned".
+  std::string size_of(const std::string& path) const;
 };
 
 // What may be changed: nothing; what leaves the surface as it is, that is isolated vertices, copies
