@@ -390,6 +390,8 @@ class Careless_calls(Case):
             ("values has the shape .150, 3.", lambda: RUN.average(RUN.V)),
             ("labels has the dtype float64", lambda: RUN.transfer_labels(V[:, 0])),
             ("labels is not an array", lambda: RUN.transfer_labels([[1], [1, 2]])),
+            ("prolong_labels.. carries those", lambda: RUN.transfer_labels(np.arange(150))),
+            (r"\(642,\), it must be \(150,\)", lambda: RUN.prolong_labels(V[:, 0] > 0)),
             (".* is a folder: give the name of a file", lambda: RUN.save(self.folder)),
             ("n is 5, it must be", lambda: RUN.levels(5)),
             ("k is of the type ndarray", lambda: RUN.coarse_eigenpairs(V, "fitted")),
@@ -541,6 +543,13 @@ class Meshes(Case):
         labels = run.transfer_labels(np.where(V[:, 0] > 0, "east", "west"), by="area")
         away = abs(run.V[:, 0]) > 0.2
         np.testing.assert_array_equal(labels[away], np.where(run.V[:, 0] > 0, "east", "west")[away])
+        back = run.prolong_labels(labels, outside="none")
+        self.assertTrue((back[~mask] == "none").all())
+        away = mask & (abs(V[:, 0]) > 0.4)
+        np.testing.assert_array_equal(back[away], np.where(V[:, 0] > 0, "east", "west")[away])
+        first = np.flatnonzero(~mask)[0]
+        with self.assertRaisesRegex(ValueError, f"vertex {first} is the first: pass outside="):
+            run.prolong_labels(labels)
         kept = ss.simplify(V, F, 120, 30, mask=mask, keep=[3, 7])
         np.testing.assert_array_equal(kept.V[kept.vertex_map[[3, 7]]], V[[3, 7]])
         with self.assertRaisesRegex(
@@ -578,6 +587,11 @@ class Meshes(Case):
             rows = "".join(f"{v} 0 0 0 0\n" for v in np.flatnonzero(mask))
             self.write("lh.cortex.label", f"#!ascii label\n{mask.sum()}\n{rows}")
             names.append("lh.cortex.label")
+            ss.write_mesh(self.path("surface.gii"), V, F)
+            with self.assertRaisesRegex(ValueError, "surface.gii holds 2 arrays, as a surface"):
+                ss.read_mask(self.path("surface.gii"), len(V))
+        np.save(self.path("column.npy"), mask[:, None])
+        names.append("column.npy")
         for name in names:
             np.testing.assert_array_equal(ss.read_mask(self.path(name), len(V)), mask)
         with self.assertRaisesRegex(ValueError, r"mask.txt has the shape \(642,\), it must be \(9"):
@@ -933,6 +947,8 @@ class Maps(Case):
         )
         with self.assertRaisesRegex(ValueError, "pass T"):
             ss.align(RUN.eigenpairs, RUN.coarse_eigenpairs(10))
+        with self.assertRaisesRegex(ValueError, "but other edges: pass T"):
+            ss.align(RUN.coarse_eigenpairs(10), self.run_.coarse_eigenpairs(10))
 
     def test_maps_there_and_back(self):
         source, target = self.run_.eigenpairs, RUN.eigenpairs
@@ -1222,6 +1238,15 @@ class Collections(Case):
         self.assertEqual([r.error is None for r in rows], [True, False, True])
         self.assertIn("the process that computed it died each time", rows[1].error)
 
+    def test_a_script_that_each_worker_would_run(self):
+        script = (
+            "import spectral_simplification as ss\n"
+            "ss.simplify_collection(['none.off', 'none2.off'], 150, workers=2, progress=False)\n"
+        )
+        done = self.run_there(sys.executable, self.write("script.py", script))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("must stand below if __name__ == '__main__':", done.stderr.splitlines()[-1])
+
     @unittest.skipUnless(HAVE["distributed"], "distributed is not installed")
     def test_a_cluster_that_loses_a_worker(self):
         import distributed
@@ -1503,7 +1528,7 @@ class Recipes(Case):
         here = os.getcwd()
         os.chdir(self.folder)
         try:
-            names = dict(ss=ss, np=np, **names)
+            names = dict(ss=ss, np=np, __name__="__main__", **names)
             with contextlib.redirect_stdout(io.StringIO()) as said:
                 exec(compile(code, name, "exec"), names)
         finally:

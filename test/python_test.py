@@ -742,10 +742,11 @@ class Documentation(unittest.TestCase):
     def test_the_example_of_its_page(self):
         with open(os.path.join(os.path.dirname(__file__), "..", "examples", "python", "README.md")) as file:
             code = file.read().split("```python\n")[1].split("```")[0]
-        names, here = dict(V=V, F=F), os.getcwd()
+        names, here = {}, os.getcwd()
         with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
             try:
                 os.chdir(folder)
+                ss.write_mesh("cat.off", V, F)
                 exec(code, names)
             finally:
                 os.chdir(here)

@@ -165,7 +165,7 @@ def _on_processes(tasks, workers: int):
     context = multiprocessing.get_context("spawn")  # libraries have threads, which fork loses
     tasks = iter(tasks)
     suspects: list = []  # with the number of deaths while they were alone
-    more = True
+    more, first = True, True
     while more or suspects:
         alone = bool(suspects)
         running: dict = {}
@@ -173,6 +173,9 @@ def _on_processes(tasks, workers: int):
             1 if alone else workers, mp_context=context
         ) as pool:
             try:
+                if first:
+                    _check_worker(pool)
+                    first = False
                 while True:
                     while more and not alone and len(running) < 2 * workers:
                         task = next(tasks, None)
@@ -201,6 +204,18 @@ def _on_processes(tasks, workers: int):
             except BaseException:
                 pool.shutdown(cancel_futures=True)
                 raise
+
+
+def _check_worker(pool) -> None:
+    """Whether a process starts at all: it imports the script first."""
+    try:
+        pool.submit(int).result()
+    except concurrent.futures.process.BrokenProcessPool:
+        raise RuntimeError(
+            "No process can be started for workers=, its own words are above. In a script what "
+            "calls simplify_collection() must stand below if __name__ == '__main__':, since each "
+            "process imports the script."
+        ) from None
 
 
 def _submitted(pool, task, running: dict):

@@ -300,6 +300,18 @@ def lift_point_map(
     return source.used[point_map(C, source.fine_eigenpairs, target.fine_eigenpairs, threads)]
 
 
+def _share_edges(A: scipy.sparse.spmatrix, B: scipy.sparse.spmatrix) -> bool:
+    """Whether most entries of one stand in the other as well: zeros may be left out."""
+    patterns = []
+    for matrix in A, B:
+        pattern = scipy.sparse.csr_matrix(matrix, dtype=float, copy=True)
+        pattern.sum_duplicates()
+        pattern.data[:] = 1
+        patterns.append(pattern)
+    common = patterns[0].multiply(patterns[1]).nnz
+    return 2 * common >= min(pattern.nnz for pattern in patterns)
+
+
 def align(
     first: Eigenpairs,
     second: Eigenpairs,
@@ -318,7 +330,7 @@ def align(
         Of two meshes.
     T : (vertices of first,) integers or sparse matrix, optional
         For each vertex of the first the one of the second, or an interpolation (first x second).
-        None: both have the same connectivity.
+        None: both have the same connectivity, as poses that share it.
     mixing : float
         How large the part of modes may be that goes to the other side of a cut between clusters;
         from 0 to 1.
@@ -358,6 +370,11 @@ def align(
         if n != m:
             raise ValueError(
                 f"first has {n} vertices and second {m}: pass T, which says where they correspond."
+            )
+        if not _share_edges(first.L, second.L):
+            raise ValueError(
+                "first and second have as many vertices, but other edges: pass T, which says where "
+                "they correspond, such as X.P @ Y.Q of two runs on poses."
             )
         moved = phi
     elif scipy.sparse.issparse(T):

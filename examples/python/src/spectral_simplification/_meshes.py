@@ -439,7 +439,13 @@ def read_mask(path: Any, n: int) -> numpy.ndarray:
             named = read_label(path)
             found = numpy.isin(numpy.arange(max(n, named.max() + 1)), named)
         elif path.endswith(".gii"):
-            found = numpy.asarray(_needed("nibabel", path).load(path).agg_data())
+            found = _needed("nibabel", path).load(path).agg_data()
+            if isinstance(found, tuple):
+                raise ValueError(
+                    f"{path} holds {len(found)} arrays, as a surface does: pass a file of one, "
+                    "with a value for each vertex."
+                )
+            found = numpy.asarray(found)
             found = found != 0 if found.dtype.kind in "iu" else found
         else:
             found = _numbers(path, float)
@@ -447,6 +453,8 @@ def read_mask(path: Any, n: int) -> numpy.ndarray:
         raise
     except Exception as error:
         raise ValueError(f"{path} cannot be read: {type(error).__name__}, {error}.") from None
+    if found.shape == (n, 1):
+        found = found[:, 0]
     if found.shape != (n,):
         raise ValueError(f"{path} has the shape {found.shape}, it must be ({n},).")
     if not numpy.isin(found, (0, 1)).all():

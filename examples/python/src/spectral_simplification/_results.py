@@ -594,8 +594,8 @@ class Level(_Result):
     fine_F : (f, 3) int64
         The triangles of the input that were used.
     eigenpairs : Eigenpairs or None
-        Of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or
-        pre_simplify, and in what apply() returns.
+        Of the input, as far as the run had them: None with signals or pre_simplify, and in what
+        apply() and a shared connectivity return; fine_eigenpairs are there always.
     coefficients : (n, 7) array or None
         What the collapses have made of coefficients=: of the operator of this mesh.
     fitted : Fitted_operators or None
@@ -903,10 +903,50 @@ class Level(_Result):
             )
         return self._voted(labels, by)
 
+    def prolong_labels(self, labels: Any, outside: Any = None) -> numpy.ndarray:
+        """Carries labels of this mesh to the vertices of V: from the vertex of most weight in a row
+        of Q.
+
+        Parameters
+        ----------
+        labels : (n,) array
+            Of any type, a label for each vertex of this mesh.
+        outside : optional
+            What vertices get that do not take part, those that mask= leaves out or that have no
+            face; needed where there are any.
+
+        Returns
+        -------
+        (v,) array
+
+        Raises
+        ------
+        ValueError, TypeError
+            In one sentence that names the first thing that is wrong.
+        """
+        labels, n = _rectangular("labels", labels), len(self.V)
+        if labels.shape != (n,):
+            raise ValueError(
+                f"labels has the shape {labels.shape}, it must be ({n},), one for each vertex of "
+                "the simplified mesh."
+            )
+        carried = labels[numpy.asarray(self.Q.argmax(axis=1)).ravel()]
+        others = numpy.ones(len(carried), bool)
+        others[self.used] = False
+        if not others.any():
+            return carried
+        if outside is None:
+            raise ValueError(
+                f"{others.sum()} vertices do not take part, vertex {others.argmax()} is the first: "
+                "pass outside=, the label that they get."
+            )
+        return numpy.where(others, outside, carried)
+
     def _check_labels(self, labels: numpy.ndarray, v: int, missing: numpy.ndarray) -> None:
         if labels.shape != (v,):
             raise ValueError(
-                f"labels has the shape {labels.shape}, it must be ({v},), one for each vertex of V."
+                f"labels has the shape {labels.shape}, it must be ({v},), one for each vertex of V; "
+                "prolong_labels() carries those of the simplified mesh."
             )
         bad = self.used[missing[self.used]]  # no label of the others is read
         if bad.size:
