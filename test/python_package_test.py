@@ -1606,7 +1606,7 @@ class Recipes(Case):
         done = cortex("--surface", "in.off", *words)
         self.assertEqual(done.returncode, 0, done.stderr)
         sizes = [
-            abs(ss.read_mesh(self.path(f"cortex_{name}.off"))[0]).max()
+            abs(ss.read_mesh(self.path(f"cortex_{name}"))[0]).max()
             for name in ("lh.off", "lh.ply")
         ]
         self.assertAlmostEqual(sizes[1], 2 * sizes[0])

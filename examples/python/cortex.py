@@ -220,7 +220,9 @@ def main(arguments=None):
         f"{100 * abs(small - sizes).max():.2f} % of all at most"
     )
     for name, positions in others.items():
-        ss.write_mesh(out / f"cortex_{name}.off", run.apply(positions).V, run.F)
+        known = name.endswith((".gii", ".off", ".obj", ".ply", ".stl", ".vtk", ".vtp"))
+        place = out / f"cortex_{name}{'' if known else '.off'}"  # lh.pial has no ending of a format
+        ss.write_mesh(place, run.apply(positions).V, run.F)
     ss.write_mesh(out / "cortex.off", run.V, run.F)
     run.save(out / "cortex.npz")
     try:

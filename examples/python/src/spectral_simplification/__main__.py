@@ -267,8 +267,8 @@ def _run(a: argparse.Namespace) -> None:
         )
         if not a.quiet:
             print(
-                f"{len(V)} to {len(run.V)} vertices, |C|_L {e.C_L:.3f}, |C|_D {e.C_D:.3f}, "
-                "eigenvalue error "
+                f"{len(run.used)} to {len(run.V)} vertices, at unit area in the mass "
+                f"{report['mass']}: |C|_L {e.C_L:.3f}, |C|_D {e.C_D:.3f}, eigenvalue error "
                 f"{100 * e.eigenvalue_error:.2f} %"
             )
     # All are written beside their places first, and those that enter last get theirs first.
