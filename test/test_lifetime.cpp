@@ -144,7 +144,7 @@ TEST_CASE("A second run with a predicate that was cancelled or has reached its t
 
 TEST_CASE("A loop does with the threads it gets, and all that is to be done is done")
 {
-  using CGAL::Spectral_geometry::internal::share_tasks;
+  using CGAL::Spectral_geometry::internal::for_each_range;
   const auto refuse_third = [](auto error) {
     return [error, left = std::make_shared<int>(2)](const auto& worker) {
       if((*left)-- == 0)
@@ -154,13 +154,13 @@ TEST_CASE("A loop does with the threads it gets, and all that is to be done is d
   };
   std::atomic<int> calls{0};
   const auto count = [&](std::ptrdiff_t begin, std::ptrdiff_t end) { calls += int(end - begin); };
-  share_tasks(1000, 6, 4, count,
-              refuse_third(std::system_error(
-                  std::make_error_code(std::errc::resource_unavailable_try_again))));
+  for_each_range(1000, 4, 6, count,
+                 refuse_third(std::system_error(
+                     std::make_error_code(std::errc::resource_unavailable_try_again))));
   CHECK(calls == 1000);
-  share_tasks(1000, 6, 4, count, refuse_third(std::bad_alloc()));
+  for_each_range(1000, 4, 6, count, refuse_third(std::bad_alloc()));
   CHECK(calls == 2000);
-  CHECK_THROWS_AS(share_tasks(1000, 6, 4, count, refuse_third(std::runtime_error("another"))),
+  CHECK_THROWS_AS(for_each_range(1000, 4, 6, count, refuse_third(std::runtime_error("another"))),
                   std::runtime_error);
 }
 

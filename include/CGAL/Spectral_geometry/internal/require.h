@@ -19,18 +19,15 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-inline void add_words(std::string& text, const double number)
-{
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << number;
-  text += out.str();
-}
-
 template <class Part>
 void add_words(std::string& text, const Part& part)
 {
-  if constexpr(std::is_integral<Part>::value)
+  if constexpr(std::is_floating_point<Part>::value) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << part;
+    text += out.str();
+  } else if constexpr(std::is_integral<Part>::value)
     text += std::to_string(part);
   else if constexpr(std::is_convertible<Part, std::string>::value)
     text += part;

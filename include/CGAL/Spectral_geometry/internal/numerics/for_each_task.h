@@ -16,11 +16,17 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Has `take(begin, end)` called for ranges of `grain` numbers that make 0 .. count - 1, as
-/// for_each_task() says; `start(worker)` makes a thread.
-inline void share_tasks(
-    const Eigen::Index count, const int threads, const int grain,
-    const std::function<void(Eigen::Index, Eigen::Index)>& take,
+/// Calls f(first, end) for ranges of `at_once` numbers of 0 .. size - 1, in any order, on at most
+/// so many threads, which `start(worker)` makes; the last range may be shorter. The caller is one
+/// of the threads, and where the system has no more it does with those it has got.
+///
+/// What a call computes must depend on its range alone, and sums over ranges are up to the caller,
+/// in their order, so that no result depends on the number of threads. What one throws, on
+/// whichever thread, the caller gets when all are back; calls that nobody has begun with are left
+/// out then.
+inline void for_each_range(
+    const Eigen::Index size, const Eigen::Index at_once, const int threads,
+    const std::function<void(Eigen::Index, Eigen::Index)>& f,
     const std::function<std::thread(const std::function<void()>&)>& start = [](const auto& worker) {
       return std::thread(worker);
     })
@@ -30,13 +36,13 @@ inline void share_tasks(
   std::exception_ptr error; // the first
   const auto take_part = [&] {
     try {
-      for(Eigen::Index begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain))
-        take(begin, (std::min)(begin + grain, count));
+      for(Eigen::Index i = next.fetch_add(at_once); i < size; i = next.fetch_add(at_once))
+        f(i, (std::min)(i + at_once, size));
     } catch(...) {
       const std::lock_guard<std::mutex> lock(mutex);
       if(!error)
         error = std::current_exception();
-      next = count;
+      next = size;
     }
   };
   {
@@ -48,7 +54,7 @@ inline void share_tasks(
           worker.join();
       }
     } workers;
-    const Eigen::Index most = (std::min)(Eigen::Index(threads), count / grain);
+    const Eigen::Index most = (std::min)(Eigen::Index(threads), (size + at_once - 1) / at_once);
     workers.reserve(std::size_t((std::max)(most, Eigen::Index(1))));
     try {
       for(Eigen::Index i = 1; i < most; ++i)
@@ -62,31 +68,14 @@ inline void share_tasks(
     std::rethrow_exception(error);
 }
 
-/// Calls f(0) .. f(count - 1) in any order, `grain` of them in a row on one of at most so many
-/// threads; the caller is one of them, and where the system has no more it does with those it has
-/// got.
-///
-/// What a call computes must depend on its index alone, and sums over tasks are up to the caller,
-/// in the order of the tasks, so that no result depends on the number of threads. What one throws,
-/// on whichever thread, the caller gets when all are back; calls that nobody has begun with are
-/// left out then.
+/// Calls f(0) .. f(count - 1) likewise, `grain` of them in a row on one thread.
 template <class Function>
 void for_each_task(const Eigen::Index count, const int threads, const Function& f,
                    const int grain = 1)
 {
-  share_tasks(count, threads, grain, [&f](Eigen::Index i, const Eigen::Index end) {
+  for_each_range(count, grain, threads, [&f](Eigen::Index i, const Eigen::Index end) {
     for(; i < end; ++i)
       f(i);
-  });
-}
-
-/// Calls f(first, end) for ranges of `at_once` numbers of 0 .. size - 1; the last may be shorter.
-template <class Function>
-void for_each_range(const Eigen::Index size, const Eigen::Index at_once, const int threads,
-                    const Function& f)
-{
-  for_each_task((size + at_once - 1) / at_once, threads, [&](const Eigen::Index range) {
-    f(range * at_once, (std::min)((range + 1) * at_once, size));
   });
 }
 
