@@ -550,6 +550,12 @@ class Meshes(Case):
         first = np.flatnonzero(~mask)[0]
         with self.assertRaisesRegex(ValueError, f"vertex {first} is the first: pass outside="):
             run.prolong_labels(labels)
+        with self.assertRaisesRegex(TypeError, "outside is 0, it must be one value of the kind"):
+            run.prolong_labels(labels, 0)
+        with self.assertRaisesRegex(TypeError, "outside is .*, it must be one value of the kind"):
+            run.prolong_labels(np.arange(120), [1, 2])
+        numbers = run.prolong_labels(np.arange(120, dtype=np.uint8), -1)
+        self.assertEqual((numbers.dtype, numbers[first]), (np.int16, -1))
         kept = ss.simplify(V, F, 120, 30, mask=mask, keep=[3, 7])
         np.testing.assert_array_equal(kept.V[kept.vertex_map[[3, 7]]], V[[3, 7]])
         with self.assertRaisesRegex(
@@ -588,7 +594,7 @@ class Meshes(Case):
             self.write("lh.cortex.label", f"#!ascii label\n{mask.sum()}\n{rows}")
             names.append("lh.cortex.label")
             ss.write_mesh(self.path("surface.gii"), V, F)
-            with self.assertRaisesRegex(ValueError, "surface.gii holds 2 arrays, as a surface"):
+            with self.assertRaisesRegex(ValueError, "surface.gii holds 2 arrays, it must hold one"):
                 ss.read_mask(self.path("surface.gii"), len(V))
         np.save(self.path("column.npy"), mask[:, None])
         names.append("column.npy")
@@ -842,6 +848,9 @@ class Carried(Case):
             carried = RUN.transfer_labels(labels)
             self.assertEqual(list(carried.categories), ["north", "west", "east"])
             np.testing.assert_array_equal(np.asarray(carried).astype(str), plain)
+            back = RUN.prolong_labels(carried)
+            self.assertEqual(list(back.categories), ["north", "west", "east"])
+            self.assertGreater((np.asarray(back) == names).mean(), 0.9)
         names = names.astype(object)
         names[4] = None
         for labels in names, pandas.Series(names, dtype="string"), pandas.Categorical(names):
@@ -1125,6 +1134,8 @@ class Collections(Case):
         self.assertRegex(said[1], "crack|vert")
         self.assertEqual(rows[1].result.report["output_vertices"], 150)
         run, faces = rows[1].result, np.vstack([len(V) + np.arange(3), F[1:]])
+        back = run.prolong_labels(np.arange(150))  # copies that were merged have labels, too
+        np.testing.assert_array_equal(back[642:], back[F[0]])
         for level in run, run.levels(300), run.apply(seam[0]):
             np.testing.assert_allclose(np.asarray(level.Q.sum(axis=1)), 1)  # of merged ones, too
             np.testing.assert_array_equal(level.Q[faces[0]].toarray(), level.Q[F[0]].toarray())

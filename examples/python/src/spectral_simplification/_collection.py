@@ -173,14 +173,14 @@ def _on_processes(tasks, workers: int):
             1 if alone else workers, mp_context=context
         ) as pool:
             try:
-                if first:
-                    _check_worker(pool)
-                    first = False
                 while True:
                     while more and not alone and len(running) < 2 * workers:
                         task = next(tasks, None)
                         more = task is not None
                         if more:
+                            if first:
+                                _check_worker(pool)
+                                first = False
                             running[_submitted(pool, task, running)] = (task, 0)
                     if alone and suspects and not running:
                         task, deaths = suspects.pop(0)
@@ -213,8 +213,8 @@ def _check_worker(pool) -> None:
     except concurrent.futures.process.BrokenProcessPool:
         raise RuntimeError(
             "No process can be started for workers=, its own words are above. In a script what "
-            "calls simplify_collection() must stand below if __name__ == '__main__':, since each "
-            "process imports the script."
+            "calls simplify_collection() must stand below if __name__ == '__main__':, and the script "
+            "must be a file, since each process imports it."
         ) from None
 
 

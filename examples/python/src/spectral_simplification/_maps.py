@@ -301,15 +301,17 @@ def lift_point_map(
 
 
 def _share_edges(A: scipy.sparse.spmatrix, B: scipy.sparse.spmatrix) -> bool:
-    """Whether most entries of one stand in the other as well: zeros may be left out."""
+    """Whether nearly all entries of one stand in the other as well. Two runs on a mesh that is
+    numbered by rows share up to three quarters; intrinsic Delaunay flips leave nine tenths."""
     patterns = []
     for matrix in A, B:
         pattern = scipy.sparse.csr_matrix(matrix, dtype=float, copy=True)
         pattern.sum_duplicates()
+        pattern.eliminate_zeros()
         pattern.data[:] = 1
         patterns.append(pattern)
     common = patterns[0].multiply(patterns[1]).nnz
-    return 2 * common >= min(pattern.nnz for pattern in patterns)
+    return common >= 0.85 * min(pattern.nnz for pattern in patterns)
 
 
 def align(

@@ -442,8 +442,8 @@ def read_mask(path: Any, n: int) -> numpy.ndarray:
             found = _needed("nibabel", path).load(path).agg_data()
             if isinstance(found, tuple):
                 raise ValueError(
-                    f"{path} holds {len(found)} arrays, as a surface does: pass a file of one, "
-                    "with a value for each vertex."
+                    f"{path} holds {len(found)} arrays, it must hold one, with a value for each "
+                    "vertex."
                 )
             found = numpy.asarray(found)
             found = found != 0 if found.dtype.kind in "iu" else found

@@ -910,20 +910,31 @@ class Level(_Result):
         Parameters
         ----------
         labels : (n,) array
-            Of any type, a label for each vertex of this mesh.
+            Of any type, a label for each vertex of this mesh; a pandas categorical gives one.
         outside : optional
             What vertices get that do not take part, those that mask= leaves out or that have no
-            face; needed where there are any.
+            face; needed where there are any. Of the kind of the labels.
 
         Returns
         -------
-        (v,) array
+        (v,) array or pandas.Categorical
 
         Raises
         ------
         ValueError, TypeError
             In one sentence that names the first thing that is wrong.
         """
+        kind = getattr(labels, "dtype", None)
+        if hasattr(kind, "categories"):  # pandas
+            import pandas
+
+            if outside is not None and outside not in kind.categories:
+                raise ValueError(
+                    f"outside is {_shown(outside)}, it must be one of the categories of labels."
+                )
+            codes = numpy.asarray(labels.cat.codes if hasattr(labels, "cat") else labels.codes)
+            code = None if outside is None else kind.categories.get_loc(outside)
+            return pandas.Categorical.from_codes(self.prolong_labels(codes, code), dtype=kind)
         labels, n = _rectangular("labels", labels), len(self.V)
         if labels.shape != (n,):
             raise ValueError(
@@ -931,16 +942,29 @@ class Level(_Result):
                 "the simplified mesh."
             )
         carried = labels[numpy.asarray(self.Q.argmax(axis=1)).ravel()]
-        others = numpy.ones(len(carried), bool)
-        others[self.used] = False
+        others = numpy.diff(self.Q.indptr) == 0
         if not others.any():
             return carried
         if outside is None:
+            count = f"{others.sum()} vertices do" if others.sum() > 1 else "one vertex does"
             raise ValueError(
-                f"{others.sum()} vertices do not take part, vertex {others.argmax()} is the first: "
-                "pass outside=, the label that they get."
+                f"{count} not take part, vertex {others.argmax()} is the first: pass outside=, the "
+                "label that they get."
             )
-        return numpy.where(others, outside, carried)
+        if labels.dtype.kind == "b" and outside in (0, 1):
+            outside = bool(outside)
+        one, kind = numpy.asarray(outside), labels.dtype.kind
+        takes = dict(b="b", i="iu", u="iu", f="iuf", U="U", S="S", O="OUSbiufc").get(kind, kind)
+        fits = one.ndim == 0 and one.dtype.kind in takes
+        result = numpy.result_type(labels.dtype, numpy.min_scalar_type(outside)) if fits else None
+        if not fits or result.kind not in takes:
+            raise _core.Wrong_type(
+                f"outside is {_shown(outside)}, it must be one value of the kind of labels, whose "
+                f"dtype is {labels.dtype}."
+            )
+        carried = carried.astype(result)
+        carried[others] = outside
+        return carried
 
     def _check_labels(self, labels: numpy.ndarray, v: int, missing: numpy.ndarray) -> None:
         if labels.shape != (v,):
