@@ -554,6 +554,8 @@ class Meshes(Case):
             run.prolong_labels(labels, 0)
         with self.assertRaisesRegex(TypeError, "outside is .*, it must be one value of the kind"):
             run.prolong_labels(np.arange(120), [1, 2])
+        with self.assertRaisesRegex(TypeError, "outside is .*, whose dtype is bool"):
+            run.prolong_labels(np.arange(120) > 5, np.zeros(2))
         numbers = run.prolong_labels(np.arange(120, dtype=np.uint8), -1)
         self.assertEqual((numbers.dtype, numbers[first]), (np.int16, -1))
         kept = ss.simplify(V, F, 120, 30, mask=mask, keep=[3, 7])

@@ -928,7 +928,9 @@ class Level(_Result):
         if hasattr(kind, "categories"):  # pandas
             import pandas
 
-            if outside is not None and outside not in kind.categories:
+            if outside is not None and (
+                numpy.ndim(outside) != 0 or outside not in kind.categories
+            ):
                 raise ValueError(
                     f"outside is {_shown(outside)}, it must be one of the categories of labels."
                 )
@@ -951,10 +953,8 @@ class Level(_Result):
                 f"{count} not take part, vertex {others.argmax()} is the first: pass outside=, the "
                 "label that they get."
             )
-        if labels.dtype.kind == "b" and outside in (0, 1):
-            outside = bool(outside)
         one, kind = numpy.asarray(outside), labels.dtype.kind
-        takes = dict(b="b", i="iu", u="iu", f="iuf", U="U", S="S", O="OUSbiufc").get(kind, kind)
+        takes = dict(i="iu", u="iu", f="iuf", O="OUSbiufc").get(kind, kind)
         fits = one.ndim == 0 and one.dtype.kind in takes
         result = numpy.result_type(labels.dtype, numpy.min_scalar_type(outside)) if fits else None
         if not fits or result.kind not in takes:
