@@ -34,6 +34,7 @@ import scipy.sparse
 import scipy.sparse.linalg
 
 import spectral_simplification as ss
+from spectral_simplification import _core, _results
 from python_shapes import sheet, sphere
 
 PROGRAM = None
@@ -1029,6 +1030,28 @@ class Poses(Case):
         self.assertLess(errors["relocated"], 0.95 * errors["P"])
         self.assertEqual(errors["given"], errors["relocated"])
 
+    def test_vertices_off_the_surface_are_carried_with_what_is_around_them(self):
+        run = ss.simplify(V, F, 150, 40, relocate="none")
+        turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
+        turn *= np.linalg.det(turn)
+        off = run.V - run.P @ V
+        self.assertGreater(abs(off).max(), 0.01)
+        for other, expected in (
+            (3 * V @ turn + [1, 2, 3], 3 * off @ turn),
+            (np.zeros_like(V), np.zeros_like(off)),
+        ):
+            carried = _results._carried_offsets(run.V, run.P @ V, run.P @ other, run.F)
+            np.testing.assert_allclose(carried, expected, atol=1e-12)
+        # A relocation that begins at the vertices of a run sees and does what that of the run does.
+        words = dict(fixed=run._asked["kept"], signals="sampled", prefer=None, threads=2)
+        again = _core.relocate(
+            dict(
+                V=V, F=F, Vc=run.V, Fc=run.F, P=run.P, eigenpairs=run.eigenpairs, progress=None, **words
+            )
+        )
+        own = ss.simplify(V, F, 150, 40, eigenpairs=run.eigenpairs)
+        np.testing.assert_array_equal(again["V"], own.V)
+
     def test_a_level_has_eigenpairs_and_carries_maps_as_a_run_does(self):
         other = list(poses(4))[3]
         posed, finer = RUN.apply(other, relocate=True), RUN.levels(300)
@@ -1297,12 +1320,17 @@ class Collections(Case):
             np.testing.assert_array_equal(row.result.F, rows[0].result.F)
             pairs = ss.eigenpairs(pose, F, 40)
             own = ss.simplify(pose, F, 150, 40, eigenpairs=pairs)
-            errors = [
-                ss.evaluate(pose, F, r.V, r.F, r.P, 40, eigenpairs=pairs).eigenvalue_error
+            shared, alone = (
+                ss.evaluate(pose, F, r.V, r.F, r.P, 40, eigenpairs=pairs)
                 for r in (row.result, own)
-            ]
-            ratios.append(errors[0] / errors[1])
-        self.assertLess(max(ratios), 1.3)  # 0.74 to 1.15
+            )
+            ratios.append(
+                (shared.eigenvalue_error / alone.eigenvalue_error, shared.C_L / alone.C_L)
+            )
+        errors, commutators = np.transpose(ratios)
+        self.assertLess(max(errors), 1.3)  # 0.6 to 1.07
+        # 0.87 in the mean; 1.02 where each pose began at P V and saw all eigenvectors
+        self.assertLess(np.mean(commutators), 0.95)
         shaped = ss.simplify_collection(
             meshes[:2], 150, shared_connectivity=True, k=40, prefer="shape", progress=False
         )

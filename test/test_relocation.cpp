@@ -837,6 +837,10 @@ TEST_CASE("the one-call form relocates: same triangles, E of the mesh as it is, 
   CHECK((before.restriction - after.restriction).norm() == 0);
   CHECK(after.E < before.E);
   CHECK(after.relocation.moved_vertices > 100);
+  const auto later = SMS::spectral_relocation( // the mesh form sees the same mixtures
+      plain, before.restriction, input, *before.eigenpairs, options.mass, options.relocation);
+  CHECK((SG::mesh_matrices(plain).V - b.V).norm() < 1e-5 * b.V.norm());
+  CHECK(later.steps == after.relocation.steps);
   const Basis basis = eigen_input(input, options.mass, *after.eigenpairs).basis;
   CHECK(relative_difference(energy(b, basis, after.restriction), after.E) < 1e-8);
   CHECK(relative_difference(std::sqrt(after.E / basis.lambda.squaredNorm()), after.relative_error) <

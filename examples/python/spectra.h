@@ -414,13 +414,13 @@ inline py::dict relocate(const Arguments& a)
   set_preference(a.word("prefer", {"spectrum", "shape"}, true), options);
   options.threads = a.threads();
   options.eigenpairs = pairs.pairs.get();
+  options.modes = pairs.pairs->size();
   if(SMS::internal::has_reachable_eigenvalues(op))
     options.eigenvalues = pairs.op->mass.sum() * pairs.pairs->all_values();
   options.progress = [&](const double fraction) { return watch("relocation", fraction); };
   const SG::Relocation_result done = watch.run([&] {
-    const SG::Eigenpairs& phi = *pairs.pairs;
-    return SG::relocate_positions(coarse.V, coarse.T, P, fine, phi.vectors,
-                                  phi.vectors * phi.values.asDiagonal(), op, fixed, options);
+    const auto [F, Z] = SMS::internal::mixtures_of_eigenpairs(*pairs.pairs);
+    return SG::relocate_positions(coarse.V, coarse.T, P, fine, F, Z, op, fixed, options);
   });
   py::dict result;
   result["V"] = py::cast(Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>(coarse.V));

@@ -41,6 +41,16 @@ inline double area(const Spectral_geometry::Mesh_matrices& mesh)
   return result;
 }
 
+/// What a relocation by eigenpairs sees: as many mixtures as that of a run.
+inline Run_signals::Signals mixtures_of_eigenpairs(const Spectral_geometry::Eigenpairs& pairs)
+{
+  const Eigen::VectorXd& values = pairs.values;
+  const Eigen::Index constants = (values.array() <= 1e-9 * values.maxCoeff()).count();
+  const Eigen::MatrixXd R =
+      mixing_matrix_of_relocation({}, Eigen::VectorXd::Ones(values.size()), constants, values);
+  return {pairs.vectors * R, pairs.vectors * (values.asDiagonal() * R)};
+}
+
 /// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: vertices that
 /// stay beside those of the named parameters, or empty.
 template <class TriangleMesh, class NamedParameters>
@@ -167,8 +177,9 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  * @param fine  the fine mesh, taken with `Spectral_geometry::mesh_matrices()` before it was
  * simplified
  * @param pairs eigenpairs of the fine mesh, of the same operator and mass, at its own scale; tight
- *        ones, since Z is taken as Phi Lambda. Their eigenvalues are those of `options` where it
- *        has none, `op` no coefficients and at least half of the consistent mass
+ *        ones, since Z is taken as Phi Lambda. Relocation sees 64 mixtures of them, as after a run.
+ *        Their eigenvalues are those of `options` where it has none, `op` no coefficients and at
+ *        least half of the consistent mass
  * @param op    a mass, or an operator with coefficients for the vertices of `mesh`. Made for the
  * mass `averaged`: with any other the shape is bent to cancel the error of the elements
  * @param options what to minimise, guards, when to stop
@@ -209,17 +220,19 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                     const Spectral_geometry::Relocation_options& options = {},
                     const NamedParameters& np = parameters::default_values())
 {
-  internal::require(pairs.vectors.cols() == pairs.size(), "spectral_relocation: there are ",
-                    pairs.size(), " eigenvalues for ", pairs.vectors.cols(),
-                    " eigenvectors; give one for each.");
+  internal::require(pairs.size() != 0 && pairs.vectors.cols() == pairs.size(),
+                    "spectral_relocation: there are ", pairs.size(), " eigenvalues for ",
+                    pairs.vectors.cols(), " eigenvectors; give one for each, and some.");
   Spectral_geometry::Relocation_options with_goals = options;
   if(options.eigenpairs == nullptr)
     with_goals.eigenpairs = &pairs;
   if(options.eigenvalues.size() == 0 && internal::has_reachable_eigenvalues(op) &&
      op.coefficients.size() == 0)
     with_goals.eigenvalues = pairs.all_values() * internal::area(fine);
-  return internal::relocate_mesh(mesh, P, fine, pairs.vectors,
-                                 pairs.vectors * pairs.values.asDiagonal(), op, with_goals, {}, np);
+  if(options.modes == 0)
+    with_goals.modes = pairs.size();
+  const auto [F, Z] = internal::mixtures_of_eigenpairs(pairs);
+  return internal::relocate_mesh(mesh, P, fine, F, Z, op, with_goals, {}, np);
 }
 
 /*!

@@ -682,8 +682,19 @@ def _shared(
     run.report["eigenvectors"] = k
     run._asked["prefer"] = prefer
     sampled = relocate == "sampled"
-    tasks = [
-        (i, _posed, (m, run, pairs[i], sampled, threads)) for i, m in going.items() if not there(i)
-    ]
-    for i, result, error, seconds in _scheduled(tasks, workers):
-        ended(i, result, error, seconds)
+
+    missing = [i for i in going if not there(i)]
+
+    def pose(numbers: list) -> Any:
+        tasks = [(i, _posed, (going[i], run, pairs[i], sampled, threads)) for i in numbers]
+        result = None
+        for i, result, error, seconds in _scheduled(tasks, workers):
+            if i in missing:
+                ended(i, result, error, seconds)
+        return result
+
+    if sampled and missing:  # that of the operator first: where it comes to lie the others begin
+        level = pose([one])
+        if level is not None:
+            run = run._from_state(dict(run._state(), V=level.V, P=level.P, _Q=None))
+    pose([i for i in missing if i != one or not sampled])
