@@ -1043,11 +1043,9 @@ class Poses(Case):
             carried = _results._carried_offsets(run.V, run.P @ V, run.P @ other, run.F)
             np.testing.assert_allclose(carried, expected, atol=1e-12)
         # A relocation that begins at the vertices of a run sees and does what that of the run does.
-        words = dict(fixed=run._asked["kept"], signals="sampled", prefer=None, threads=2)
+        words = dict(V=V, F=F, Vc=run.V, Fc=run.F, P=run.P, fixed=run._asked["kept"], threads=2)
         again = _core.relocate(
-            dict(
-                V=V, F=F, Vc=run.V, Fc=run.F, P=run.P, eigenpairs=run.eigenpairs, progress=None, **words
-            )
+            dict(words, eigenpairs=run.eigenpairs, signals="sampled", prefer=None, progress=None)
         )
         own = ss.simplify(V, F, 150, 40, eigenpairs=run.eigenpairs)
         np.testing.assert_array_equal(again["V"], own.V)
