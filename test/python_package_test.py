@@ -1038,16 +1038,19 @@ class Poses(Case):
         self.assertGreater(abs(off).max(), 0.01)
         for other, expected in (
             (3 * V @ turn + [1, 2, 3], 3 * off @ turn),
+            (V * [-1, 1, 1], off * [-1, 1, 1]),
             (np.zeros_like(V), np.zeros_like(off)),
         ):
             carried = _results._carried_offsets(run.V, run.P @ V, run.P @ other, run.F)
             np.testing.assert_allclose(carried, expected, atol=1e-12)
-        # A relocation that begins at the vertices of a run sees and does what that of the run does.
+        # A relocation that begins at the vertices of a run sees and does what that of the run does:
+        # more eigenvectors than there are mixtures.
+        run = ss.simplify(V, F, 300, 80, relocate="none")
         words = dict(V=V, F=F, Vc=run.V, Fc=run.F, P=run.P, fixed=run._asked["kept"], threads=2)
         again = _core.relocate(
             dict(words, eigenpairs=run.eigenpairs, signals="sampled", prefer=None, progress=None)
         )
-        own = ss.simplify(V, F, 150, 40, eigenpairs=run.eigenpairs)
+        own = ss.simplify(V, F, 300, 80, eigenpairs=run.eigenpairs)
         np.testing.assert_array_equal(again["V"], own.V)
 
     def test_a_level_has_eigenpairs_and_carries_maps_as_a_run_does(self):

@@ -41,11 +41,13 @@ inline double area(const Spectral_geometry::Mesh_matrices& mesh)
   return result;
 }
 
-/// What a relocation by eigenpairs sees: as many mixtures as that of a run.
+/// What a relocation by eigenpairs sees: what that of a run with default options does.
 inline Run_signals::Signals mixtures_of_eigenpairs(const Spectral_geometry::Eigenpairs& pairs)
 {
   const Eigen::VectorXd& values = pairs.values;
-  const Eigen::Index constants = (values.array() <= 1e-9 * values.maxCoeff()).count();
+  const Eigen::Index constants = pairs.zeros >= 0
+                                     ? (std::min)(pairs.zeros, pairs.size())
+                                     : (values.array() <= 1e-9 * values.maxCoeff()).count();
   const Eigen::MatrixXd R =
       mixing_matrix_of_relocation({}, Eigen::VectorXd::Ones(values.size()), constants, values);
   return {pairs.vectors * R, pairs.vectors * (values.asDiagonal() * R)};
@@ -177,9 +179,9 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  * @param fine  the fine mesh, taken with `Spectral_geometry::mesh_matrices()` before it was
  * simplified
  * @param pairs eigenpairs of the fine mesh, of the same operator and mass, at its own scale; tight
- *        ones, since Z is taken as Phi Lambda. Relocation sees 64 mixtures of them, as after a run.
- *        Their eigenvalues are those of `options` where it has none, `op` no coefficients and at
- *        least half of the consistent mass
+ *        ones, since Z is taken as Phi Lambda. Relocation sees at most 64 mixtures of them, in
+ * which low ones weigh more, as after a run with default options. Their eigenvalues are those of
+ * `options` where it has none, `op` no coefficients and at least half of the consistent mass
  * @param op    a mass, or an operator with coefficients for the vertices of `mesh`. Made for the
  * mass `averaged`: with any other the shape is bent to cancel the error of the elements
  * @param options what to minimise, guards, when to stop

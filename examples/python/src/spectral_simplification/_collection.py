@@ -378,8 +378,9 @@ def simplify_collection(
     shared_connectivity : bool
         All meshes have the same faces, as poses of one figure: the results have one connectivity,
         too, and vertex i of them is in the same place. The merges are decided by the eigenvectors
-        of all, and each result is relocated for its own, unless relocate is 'none'. Options that
-        are about one mesh, or leave out a part of it, are refused.
+        of all, in the metric of the first mesh. Each result is relocated for its own, unless
+        relocate is 'none', and begins where the first comes to lie. Options that are about one
+        mesh, or leave out a part of it, are refused.
     repair : bool
         Does what --repair does to each mesh. Results of files are numbered as
         read_mesh(name, repair=True) numbers these.
@@ -684,17 +685,16 @@ def _shared(
     sampled = relocate == "sampled"
 
     missing = [i for i in going if not there(i)]
-
-    def pose(numbers: list) -> Any:
-        tasks = [(i, _posed, (going[i], run, pairs[i], sampled, threads)) for i in numbers]
-        result = None
-        for i, result, error, seconds in _scheduled(tasks, workers):
-            if i in missing:
-                ended(i, result, error, seconds)
-        return result
-
     if sampled and missing:  # that of the operator first: where it comes to lie the others begin
-        level = pose([one])
-        if level is not None:
-            run = run._from_state(dict(run._state(), V=level.V, P=level.P, _Q=None))
-    pose([i for i in missing if i != one or not sampled])
+        level, error, seconds = _guarded(_posed, (going[one], run, pairs[one], True, threads))
+        if one in missing:
+            missing.remove(one)
+            ended(one, level, error, seconds)
+        if error is not None:
+            for i in missing:
+                ended(i, None, f"it begins where mesh {one} comes to lie, which ended: {error}", 0.0)
+            return
+        run = run._from_state(dict(run._state(), V=level.V, P=level.P, _Q=None))
+    tasks = [(i, _posed, (going[i], run, pairs[i], sampled, threads)) for i in missing]
+    for i, result, error, seconds in _scheduled(tasks, workers):
+        ended(i, result, error, seconds)

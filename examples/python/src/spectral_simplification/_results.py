@@ -1156,7 +1156,7 @@ class Simplification(Level):
             them, before relocation.
         relocate : bool
             Moves the vertices so that the spectrum of this pose is kept, as relocate='sampled' of
-            simplify() does. With 'restriction' they start beside P @ V_other, as the vertices of
+            simplify() does. With 'restriction' the vertices start beside P @ V_other, as those of
             the run lie beside P @ V. Eigenvalues need it. Vertex i lies elsewhere
             then, as the P of the result says: compare poses vertex by vertex without it.
         k : int, optional
@@ -1281,16 +1281,22 @@ class Simplification(Level):
 
 def _carried_offsets(V, on_surface, on_other, F):
     """How far vertices lie off P V, carried to another pose: turned and scaled with the edges
-    around each. Relocation begins nearer to where it ends: |C|_L is 0.9 times as large."""
+    around each, and mirrored where the pose is. Relocation begins nearer to where it ends: |C|_L is
+    0.9 times as large."""
     ends = numpy.vstack([F[:, e] for e in ([0, 1], [1, 2], [2, 0])])
     i, j = numpy.vstack([ends, ends[:, ::-1]]).T
     here, there = on_surface[j] - on_surface[i], on_other[j] - on_other[i]
     products, lengths = numpy.zeros((len(V), 3, 3)), numpy.zeros((len(V), 2))
     numpy.add.at(products, i, here[:, :, None] * there[:, None])
     numpy.add.at(lengths, i, numpy.stack([(here**2).sum(1), (there**2).sum(1)], axis=1))
-    left, _, right = numpy.linalg.svd(products)  # W. Kabsch 1976
-    left[:, :, 2] *= numpy.sign(numpy.linalg.det(left @ right))[:, None]
-    scales = numpy.sqrt(lengths[:, 1] / numpy.maximum(lengths[:, 0], numpy.finfo(float).tiny))
+    tiny = numpy.finfo(float).tiny
+    left, size, right = numpy.linalg.svd(products)  # W. Kabsch 1976
+    side = numpy.sign(numpy.linalg.det(left @ right))
+    # Flat surroundings do not know it: all decide, by how far from flat they are.
+    mirrored = (side * size[:, 2] / numpy.maximum(size[:, 0], tiny)).sum() < -1e-9 * len(V)
+    left[:, :, 2] *= (-side if mirrored else side)[:, None]
+    known = lengths[:, 0] > 0
+    scales = numpy.sqrt(numpy.where(known, lengths[:, 1], 0) / numpy.where(known, lengths[:, 0], 1))
     return scales[:, None] * ((V - on_surface)[:, None] @ left @ right)[:, 0]
 
 
