@@ -1096,6 +1096,8 @@ class Poses(Case):
         for words, call in (
             (r"V_other has the shape \(5, 3\)", lambda: RUN.apply(V[:5])),
             ("by is 'magic'", lambda: RUN.apply(V, "magic")),
+            ("not between 1e-50 and 1e50", lambda: RUN.apply(1e100 * V, relocate=True)),
+            ("not between 1e-50 and 1e50", lambda: RUN.apply(0 * V, relocate=True)),
             ("belong to relocate=True", lambda: RUN.apply(V, k=3)),
             ("and the run has coefficients", lambda: weighted.apply(V, relocate=True)),
             ("are both given: leave out k", lambda: self.relocated(V, 40, k=40)),
