@@ -34,7 +34,7 @@ import scipy.sparse
 import scipy.sparse.linalg
 
 import spectral_simplification as ss
-from spectral_simplification import _core, _results
+from spectral_simplification import _collection, _core, _results
 from python_shapes import sheet, sphere
 
 PROGRAM = None
@@ -1097,7 +1097,7 @@ class Poses(Case):
             (r"V_other has the shape \(5, 3\)", lambda: RUN.apply(V[:5])),
             ("by is 'magic'", lambda: RUN.apply(V, "magic")),
             ("not between 1e-50 and 1e50", lambda: RUN.apply(1e100 * V, relocate=True)),
-            ("not between 1e-50 and 1e50", lambda: RUN.apply(0 * V, relocate=True)),
+            ("has no mass because all", lambda: RUN.apply(0 * V, relocate=True)),
             ("belong to relocate=True", lambda: RUN.apply(V, k=3)),
             ("and the run has coefficients", lambda: weighted.apply(V, relocate=True)),
             ("are both given: leave out k", lambda: self.relocated(V, 40, k=40)),
@@ -1331,9 +1331,16 @@ class Collections(Case):
                 (shared.eigenvalue_error / alone.eigenvalue_error, shared.C_L / alone.C_L)
             )
         errors, commutators = np.transpose(ratios)
-        self.assertLess(max(errors), 1.3)  # 0.6 to 1.07
+        self.assertLess(max(errors), 1.3)  # 1.07, in the mean 0.84
         # 0.87 in the mean; 1.02 where each pose began at P V and saw all eigenvectors
         self.assertLess(np.mean(commutators), 0.95)
+        broken = unittest.mock.patch.object(_collection, "_posed", side_effect=MemoryError("full"))
+        with broken:  # the others would begin elsewhere
+            rows = ss.simplify_collection(
+                meshes[:3], 150, shared_connectivity=True, k=40, progress=False
+            )
+        sentence = "mesh 0, where this one begins, was not relocated: full"
+        self.assertEqual([row.error for row in rows], ["full", sentence, sentence])
         shaped = ss.simplify_collection(
             meshes[:2], 150, shared_connectivity=True, k=40, prefer="shape", progress=False
         )

@@ -783,6 +783,11 @@ TEST_CASE("relocation refuses indices, numbers and eigenpairs that cannot be use
         ContainsSubstring("where the fine mesh has"));
   }
 
+  for(const double scale : {1e100, 1e-100}) {
+    SG::Mesh_matrices far = s.fine;
+    far.V *= scale;
+    refused("not between 1e-50 and 1e50", s.coarse, far, s.F(), s.P);
+  }
   Mesh mesh = make_mesh(s.coarse);
   SG::Eigenpairs pairs = s.pairs;
   pairs.values.conservativeResize(10);

@@ -93,7 +93,7 @@ struct Relocation_result
     std::size_t triangles = 0; ///< because a triangle would have turned or become too thin
   };
 
-  /// E (Eq. 2) with the carried signals before and after, in the scale of the meshes. It may
+  /// E (Eq. 2) of the signals that were seen, carried, before and after, at the meshes' scale. May
   /// rise while the norms fall: the norms do not see most of it.
   double E_before = 0;
   double E_after = 0;          ///< see `E_before`

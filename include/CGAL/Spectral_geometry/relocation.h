@@ -580,6 +580,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
   require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
           "relocation: the list of fixed vertices has ", fixed.size(), " entries for ", V.rows(),
           " vertices; pass one for each, or none.");
+  for(const Eigen::MatrixXd* const positions : {&fine.V, &std::as_const(V)})
+    require(internal::extent_is_usable(internal::extent_of(*positions)),
+            "relocation: the coordinates of a mesh are not between 1e-50 and 1e50 in magnitude; "
+            "rescale both meshes.");
   internal::check_relocation_options(options);
   return internal::relocate_within(V, T, P, fine, F, Z, op, fixed, options, {});
 }

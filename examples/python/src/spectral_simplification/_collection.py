@@ -692,7 +692,7 @@ def _shared(
             ended(one, level, error, seconds)
         if error is not None:
             for i in missing:
-                ended(i, None, f"it begins where mesh {one} comes to lie, which ended: {error}", 0.0)
+                ended(i, None, f"mesh {one}, where this one begins, was not relocated: {error}", 0.0)
             return
         run = run._from_state(dict(run._state(), V=level.V, P=level.P, _Q=None))
     tasks = [(i, _posed, (going[i], run, pairs[i], sampled, threads)) for i in missing]

@@ -1157,8 +1157,8 @@ class Simplification(Level):
         relocate : bool
             Moves the vertices so that the spectrum of this pose is kept, as relocate='sampled' of
             simplify() does. With 'restriction' the vertices start beside P @ V_other, as those of
-            the run lie beside P @ V. Eigenvalues need it. Vertex i lies elsewhere
-            then, as the P of the result says: compare poses vertex by vertex without it.
+            the run lie beside P @ V. Eigenvalues need it. Vertex i lies elsewhere then, as the P
+            of the result says: compare poses vertex by vertex without it.
         k : int, optional
             How many eigenpairs of this pose relocation sees; as many as the run kept. Not with
             eigenpairs.
@@ -1202,11 +1202,6 @@ class Simplification(Level):
                 f"V_other[{int(self.used[bad.argmax()])}] is not finite: correct the position."
             )
         V_other[~numpy.isfinite(V_other).all(axis=1)] = 0  # of vertices without faces
-        if relocate and not 1e-50 <= abs(V_other[self.used]).max() <= 1e50:
-            raise ValueError(
-                "the coordinates of V_other are not between 1e-50 and 1e50 in magnitude: rescale "
-                "them."
-            )
         P = self.P if by == "restriction" else self._merge_restriction()
         V, F = _part_of(V_other, self.fine_F, self._used)
         core = dict(V=P @ V_other, F=self.F)
