@@ -6,8 +6,8 @@
 # make_all.sh BUILD QUICK MESHES RIVALS REMESHERS OTHERS
 #
 # Makes the tables, the figures and the data of this folder anew, but for those of experiments.md,
-# from the commit that is checked out and that BUILD was built from. That takes about an hour and a
-# half on a machine with two cores, the first of it without other work. The text around the marks,
+# from the commit that is checked out and that BUILD was built from. That takes some two hours on
+# two cores, the first of them without other work on the machine. The text around the marks,
 # and what it says of the numbers, is for a human: at the end measure.py --check lists what
 # README.md, reference.md and measurements.md quote wrongly.
 #
@@ -91,44 +91,52 @@ say "rivals.md and README.md"
     spot.obj:300 nefertiti.obj:1000
 )
 python3 "$doc/make_rivals.py" --pages "$build/rivals"
-say "span loss, rivals.md"
-(
-  cd "$meshes"
-  python3 "$doc/make_rivals.py" --span "$build" $(printf '%s:600 ' $limbs cheburashka.obj homer.obj rocker-arm.obj) spot.obj:300 \
-    nefertiti.obj:1000 -- $(printf '%s:600 ' $tosca)
-)
-
-# What follows tells no times: two at once.
-say "results.md, and beside it the survey of rivals.md"
-python3 "$doc/make_results.py" "$build" "$meshes" $limbs cheburashka.obj homer.obj rocker-arm.obj mountain.obj falconstatue.obj nefertiti.obj &
-results=$!
-trap 'kill $results 2>/dev/null' EXIT
-find "$others" -type f -print0 | LC_ALL=C sort -z | xargs -0 -n 100000 -x python3 "$doc/make_survey.py" "$build" 600
-wait $results
-trap - EXIT
-say "pairs, applications.md"
-python3 "$doc/make_applications.py" --pairs "$build" "$build/applications" "$remeshers" \
-  "cat:$meshes/limbs/cat.off:$meshes/pair/cat-pose.off:same" "centaur:$meshes/limbs/centaur.off:$meshes/nasty/centaur-pose.off:same" \
-  "lion:$meshes/pair/lion-00.off:$meshes/pair/cat-00.off:$meshes/pair/lion2cat.txt" \
-  "horse, bent:$meshes/limbs/horse.off:bent" "wolf, bent:$meshes/limbs/wolf.off:bent"
-say "distances, applications.md"
-(
-  cd "$meshes"
-  python3 "$doc/make_applications.py" --distances "$build" "$build/applications" $limbs
-)
-say "robustness.md"
-sh "$doc/make_robustness.sh" "$build/examples/spectral_simplify" "$meshes"/nasty/* "$meshes/igea.ply" >"$build/robustness.txt"
-(cd "$doc" && python3 -Bc '
+# What follows tells no times: two at once, each with pages of its own.
+beside_rivals()
+{
+  say "span loss, rivals.md"
+  (
+    cd "$meshes"
+    python3 "$doc/make_rivals.py" --span "$build" $(printf '%s:600 ' $limbs cheburashka.obj homer.obj rocker-arm.obj) spot.obj:300 \
+      nefertiti.obj:1000 -- $(printf '%s:600 ' $tosca)
+  )
+  say "the survey, rivals.md"
+  find "$others" -type f -print0 | LC_ALL=C sort -z | xargs -0 -n 100000 -x python3 "$doc/make_survey.py" "$build" 600
+  say "operators, measurements.md"
+  for mesh in ogre beetle; do
+    "$build/examples/spectral_simplify" "$meshes/nasty/$mesh.obj" "$build/$mesh.off" --repair --vertices 100% --no-evaluation --relocate none --quiet
+  done
+  python3 "$doc/make_operators.py" "$build" "$meshes/rocker-arm.obj" "$meshes/homer.obj" "$meshes/limbs/cat.off" \
+    --needles "$meshes/nefertiti.obj" "$meshes/falconstatue.obj" "$build/ogre.off" "$build/beetle.off" >"$build/operators.txt"
+  python3 "$doc/make_masses.py" "$build" "$meshes/limbs/cat.off" "$meshes/limbs/horse.off" "$meshes/homer.obj" "$meshes/rocker-arm.obj"
+}
+results_and_applications()
+{
+  say "results.md"
+  python3 "$doc/make_results.py" "$build" "$meshes" $limbs cheburashka.obj homer.obj rocker-arm.obj mountain.obj falconstatue.obj nefertiti.obj
+  say "pairs, applications.md"
+  python3 "$doc/make_applications.py" --pairs "$build" "$build/applications" "$remeshers" \
+    "cat:$meshes/limbs/cat.off:$meshes/pair/cat-pose.off:same" "centaur:$meshes/limbs/centaur.off:$meshes/nasty/centaur-pose.off:same" \
+    "lion:$meshes/pair/lion-00.off:$meshes/pair/cat-00.off:$meshes/pair/lion2cat.txt" \
+    "horse, bent:$meshes/limbs/horse.off:bent" "wolf, bent:$meshes/limbs/wolf.off:bent"
+  say "distances, applications.md"
+  (
+    cd "$meshes"
+    python3 "$doc/make_applications.py" --distances "$build" "$build/applications" $limbs
+  )
+  say "robustness.md"
+  sh "$doc/make_robustness.sh" "$build/examples/spectral_simplify" "$meshes"/nasty/* "$meshes/igea.ply" >"$build/robustness.txt"
+  (cd "$doc" && python3 -Bc '
 import sys
 from make_results import commit, replace
 replace("robustness.md", "inputs", f"Commit {commit()}.\n\n" + sys.stdin.read())') <"$build/robustness.txt"
-say "operators, measurements.md"
-for mesh in ogre beetle; do
-  "$build/examples/spectral_simplify" "$meshes/nasty/$mesh.obj" "$build/$mesh.off" --repair --vertices 100% --no-evaluation --relocate none --quiet
-done
-python3 "$doc/make_operators.py" "$build" "$meshes/rocker-arm.obj" "$meshes/homer.obj" "$meshes/limbs/cat.off" \
-  --needles "$meshes/nefertiti.obj" "$meshes/falconstatue.obj" "$build/ogre.off" "$build/beetle.off" >"$build/operators.txt"
-python3 "$doc/make_masses.py" "$build" "$meshes/limbs/cat.off" "$meshes/limbs/horse.off" "$meshes/homer.obj" "$meshes/rocker-arm.obj"
+}
+(set -e; beside_rivals) &
+beside=$!
+trap 'kill $beside 2>/dev/null' EXIT
+results_and_applications
+wait $beside
+trap - EXIT
 say "the figures, of the demonstration's own shape"
 mkdir -p "$build/figures"
 [ -s "$build/figures/shape.ply" ] || "$quick/examples/make_demo_shape" "$build/figures/shape.ply" --vertices 10000
