@@ -15,7 +15,7 @@ namespace CGAL::Spectral_geometry {
 /// \brief the first K eigenpairs of \f$L \phi = \lambda B \phi\f$.
 struct Eigenpairs
 {
-  /// K, ascending, not negative (what rounding leaves of the kernel's is cut at 0)
+  /// K, ascending, not negative (zeros that rounding makes negative are set to 0)
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors; ///< n x K, column k belongs to values(k), \f$\Phi^T B \Phi = I\f$
   /// K, \f$\|L \phi_k - \lambda_k B \phi_k\|_{M^{-1}} / (\lambda_k + s)\f$, see `eigenpairs()`
@@ -24,13 +24,13 @@ struct Eigenpairs
   /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`,
   /// and no residual is larger than ten times the tolerance
   bool complete = false;
-  /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the
-  /// values the first min(`zeros`, K). To be set where pairs are filled by hand, see
+  /// number of zero eigenvalues of the operator, one for each connected component of a mesh: the
+  /// first min(`zeros`, K) of the values. Set it if you fill pairs by hand, see
   /// `number_of_zero_eigenvalues()`; negative: not known
   Eigen::Index zeros = -1;
   /// the next eigenvalues after the K-th, to a thousandth: as many, up to K / 2, as the solver
-  /// knows at no further cost, some 0.4 K of `block`. Nobody counts them: one of many copies may be
-  /// missing
+  /// knows at no further cost (about 0.4 K for `block`). They are not counted: a copy of a multiple
+  /// eigenvalue may be missing
   Eigen::VectorXd further_values{};
 
   Eigen::Index size() const { return values.size(); } ///< K
@@ -46,9 +46,9 @@ struct Eigenpairs
 /// \brief how eigenpairs are computed.
 ///
 /// `automatic` is `dense` when n is at most 300, otherwise `block`: block Lanczos, eight vectors at
-/// a time. A problem of fewer than 2 K + 20 or K + 56 vertices is too small for that and solved
-/// densely all the same. More than 500 pairs of more than 1,500 vertices are found in slices of the
-/// spectrum, up to n - 56 of them.
+/// a time. A problem of fewer than 2 K + 20 or K + 56 vertices is too small for `block` and solved
+/// densely. More than 500 pairs of more than 1,500 vertices, up to n - 56, are found in slices of
+/// the spectrum unless `maximum_vectors` is set or the tolerance is above 1e-3.
 enum class Eigenpairs_method { automatic, block, dense };
 
 /// \brief how `eigenpairs()` computes. The defaults are for tight pairs.
@@ -56,18 +56,18 @@ struct Eigenpairs_options : Run_control
 {
   Eigenpairs_method method = Eigenpairs_method::automatic; ///< see there
   /// of the residuals, \f$\|L \phi - \lambda B \phi\|_{M^{-1}} \le\f$ tolerance \f$(\lambda + s)\f$
-  /// with \f$s = 4\pi/\f$area, in ]0, 1[; rounding may make them up to ten times larger. Beyond
-  /// that pairs are refined, solved densely, or `eigenpairs()` throws; where no double comes closer
-  /// they are returned with `complete` false. Relative errors of the eigenvalues are about its
-  /// square.
+  /// with \f$s = 4\pi/\f$area, in ]0, 1[; rounding may make them up to ten times larger. Pairs of
+  /// larger residuals are refined or solved densely, or `eigenpairs()` throws; if doubles cannot
+  /// come closer, they are returned with `complete` false. Relative errors of the eigenvalues are
+  /// about the square of the tolerance.
   double tolerance = 1e-10;
   /// restarts of the Krylov space, at least 1
   Eigen::Index maximum_iterations = 300;
   /// search for copies of multiple eigenvalues that the Krylov space has missed: one more
   /// factorisation counts the eigenvalues (Sylvester's law of inertia). `block` starts from eight
   /// random vectors, which cannot miss a copy of an eigenvalue of smaller multiplicity; it counts
-  /// when more than four of the values are equal as far as the tolerance tells. With a tolerance
-  /// above 1e-3 the values are too rough for a count, and the pairs are not known to be complete.
+  /// only if more than four values are equal within the tolerance. With a tolerance above 1e-3 the
+  /// values are too rough for a count, and the pairs are not known to be complete.
   bool verify = true;
   /// vectors of the Krylov space of `block` before a restart, at least K + 32, or 0 for max(3.6 K,
   /// K + 120): fewer take less memory and more time
@@ -98,7 +98,7 @@ inline void check_eigenpairs_options(const Eigenpairs_options& options, const Ei
           options.maximum_vectors, ".");
 }
 
-// Vertices, where an iteration has failed: some seconds.
+// Most vertices that are solved densely after an iteration has failed: some seconds.
 constexpr Eigen::Index largest_dense = 2000;
 
 // Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. The Krylov space

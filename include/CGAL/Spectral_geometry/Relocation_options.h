@@ -20,49 +20,49 @@ are those that were measured.
 */
 struct Relocation_options : Run_control
 {
-  /// What a vertex' signals are while it moves.
+  /// What the signals of a vertex are while it moves.
   enum class Signals {
     carried, ///< P F, the restriction that came with the mesh; it stays as it is
-    /// both that and F at the closest point of the fine surface: good in either reading
+    /// both P F and F at the closest point of the fine surface: good with either restriction
     carried_and_sampled,
-    /// F at the closest point alone, in the component that the vertex' row of P belongs to. The
-    /// lowest of the three in that reading; the restriction that came with the mesh no longer
-    /// fits, and the result holds the one to use instead
+    /// F at the closest point alone, in the component of the vertex' row of P. With the restriction
+    /// of closest points its norms are the lowest of the three. The restriction that came with the
+    /// mesh no longer fits: the result holds the one to use instead
     sampled
   };
   Signals signals = Signals::sampled; ///< the choice among them
 
-  /// tau lambda_K of `Relocation_energy`. 0 leaves the plain metric E, half as much work.
+  /// tau lambda_K of `Relocation_energy`. 0: the plain metric E, at half the work.
   double smoothing = 1;
-  /// Where new self-intersections appear the vertices go back as far as needed.
+  /// Vertices that cause new self-intersections are moved back as far as needed.
   bool keep_free_of_self_intersections = true;
-  /// Where the surfaces are further apart than this part of the largest distance of a fine vertex
-  /// at the start, they are drawn together. No fine vertex comes to be further away than any was:
-  /// tips stay. Positive; a large number leaves this bound alone, infinity nothing.
-  /// With 0.5 the Hausdorff distance is 0.8 times as large, |C|_L and errors of eigenvalues are 1.1
-  /// times as large.
+  /// The surfaces are drawn together where they are further apart than this part of the largest
+  /// distance of a fine vertex at the start. No fine vertex gets further away than that distance,
+  /// so tips stay. Positive; a large number leaves only this bound, infinity neither. With 0.5 the
+  /// Hausdorff distance is 0.8 times as large, |C|_L and errors of eigenvalues are 1.1 times as
+  /// large.
   double hausdorff_goal = 0.8;
-  /// Boundary vertices slide along the boundary of the fine mesh; or stay where they are.
+  /// Whether boundary vertices stay where they are; otherwise they slide along the fine boundary.
   bool fix_boundary = false;
   /// K, where F holds mixtures of the first K eigenvectors; 0: the number of columns of F. Not
   /// negative.
   Eigen::Index modes = 0;
-  /// Eigenpairs of the fine mesh, ascending, which judge the result: |C|_L before and after is that
-  /// of all, or of as many as there are coarse vertices. With `eigenvalues` they steer. Not owned.
-  /// Null: those that `spectral_relocation()` has, otherwise F and Z judge it.
+  /// Eigenpairs of the fine mesh, ascending, that judge the result: |C|_L before and after is taken
+  /// of all, or of as many as there are coarse vertices. With `eigenvalues` they also steer the
+  /// descent. Not owned. Null: `spectral_relocation()` takes its own; otherwise F and Z judge.
   const Eigenpairs* eigenpairs = nullptr;
-  /// The eigenvalues of the fine mesh at unit area, in any order: each times the sum of M. The
-  /// first K of the coarse ones are drawn to them, at most as many as a sixth of the vertices; of
-  /// those that follow, at most up to a quarter of the vertices, the mean. Not for lumped masses,
-  /// where the shape would make up for the error of the elements. Where |C|_L does not fall, or of
-  /// 4 K vertices by less than three per cent, the relocation is done anew with less and less of
-  /// their weight, in the end with none, until it does. Empty: no such term.
+  /// The eigenvalues of the fine mesh at unit area, in any order (each times the sum of M). The
+  /// first K coarse eigenvalues are drawn to them, at most as many as a sixth of the vertices, and
+  /// so is the mean of those that follow, up to a quarter of the vertices. Not for lumped masses,
+  /// where the shape would compensate the error of the elements. If |C|_L does not fall, or from 4
+  /// K vertices on by less than three per cent, relocation is repeated with less and less weight on
+  /// them, in the end with none, until it does. Empty: no such term.
   Eigen::VectorXd eigenvalues;
 
-  /// Ends after so many steps; one step is a value and a gradient, seldom two. With 80 the
-  /// eigenvalues beyond K are 1.04 times as far off, |C|_L is 1.01 times as large.
+  /// Largest number of steps; a step takes one value and gradient, seldom two. With 80 the errors
+  /// of the eigenvalues beyond K are 1.04 times and |C|_L 1.01 times as large.
   int maximum_steps = 100;
-  /// Ends after so much time.
+  /// Largest wall time, in seconds.
   double maximum_seconds = std::numeric_limits<double>::infinity();
 };
 
@@ -73,14 +73,14 @@ struct Relocation_result
   enum class Stop_reason {
     converged,  ///< ten steps lowered the objective by less than half a percent
     no_descent, ///< no step that the guards allow lowers it
-    /// the norm after it was no better than before, or nothing but rounding from the start:
-    /// everything is as it was
+    /// the norm got worse, or there was nothing to gain: vertices are where the descent began, or
+    /// as they were given
     no_gain,
     steps,  ///< `Relocation_options::maximum_steps`
     seconds ///< `Relocation_options::maximum_seconds`
   };
 
-  /// Vertices that a guard stopped short in one step at least, by guard.
+  /// Numbers of vertices that a guard held back in at least one step, by guard.
   struct Held
   {
     /// never moved: kept by the caller, or boundary vertices that have to stay
@@ -93,8 +93,8 @@ struct Relocation_result
     std::size_t triangles = 0; ///< because a triangle would have turned or become too thin
   };
 
-  /// E (Eq. 2) of the signals that were seen, carried, before and after, at the meshes' scale. May
-  /// rise while the norms fall: the norms do not see most of it.
+  /// E (Eq. 2) before, of the signals that relocation sees, carried by P, at the scale of the
+  /// meshes. E may rise while the norms fall: they do not see most of it.
   double E_before = 0;
   double E_after = 0;          ///< see `E_before`
   double objective_before = 0; ///< what was minimised, at the start
@@ -130,15 +130,15 @@ struct Relocation_result
 namespace internal {
 
 /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E lies
-/// in modes that the norms do not see: a large weight costs them their gain. With none E rose to
-/// twelve times what it was on falconstatue; with this it falls on seven of eight meshes.
+/// in modes that the norms do not see: with a large weight they lose their gain. With none E rose
+/// to twelve times its value on falconstatue; with this weight it falls on seven of eight meshes.
 constexpr double weight_of_energy = 0.03;
 
 /// What no vertex and no triangle may do while vertices are relocated, and when the descent ends.
 struct Relocation_limits
 {
-  /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident
-  /// edge, or as far as it starts, where that is more: beyond it its signals are another place's.
+  /// A vertex stays in a ball around (P V)_w: beyond it, the signals are those of another place.
+  /// Its radius is this many mean incident edges, or the distance at the start if that is more.
   double trust_radius = 0.5;
   /// No triangle's smallest angle falls below this part of what it was.
   double smallest_angle_ratio = 0.5;
@@ -151,9 +151,9 @@ struct Relocation_limits
   double size_tolerance = 0.03;
   /// The descent ends when ten steps lower the objective by less than this part.
   double relative_decrease = 0.005;
-  /// Where |C|_L of at least 4 K vertices does not come below this part of what it was, fewer terms
-  /// are tried, and the best of the results is taken: the modes beyond K, cut within a cluster of
-  /// eigenvalues, can end a descent. Masses that are not averaged gain 10 to 30 per cent.
+  /// From 4 K vertices on, if |C|_L does not fall below this part of its value before, fewer terms
+  /// are tried, and the best of the results is taken: modes beyond K that cut a cluster of
+  /// eigenvalues can end a descent. Masses that are not averaged gain 10 to 30 per cent.
   double gain = 0.97;
   /// Inner products of the signals take part.
   bool keep_inner_products = true;
@@ -161,8 +161,8 @@ struct Relocation_limits
   /// eigenvalues of this size in the mean square cost as much as all does at the start. With 0.025
   /// they are 1.1 times as large, and |C|_L 0.95 times. 0: no such term.
   double eigenvalue_error = 0.02;
-  /// So many of the coarse modes beyond K, in parts of K, do not fall in the mean, at unit area,
-  /// and rise as the eigenvalues say: they are too low with the averaged mass, and without this the
+  /// The mean of this many coarse eigenvalues beyond K, in parts of K, does not fall at unit area,
+  /// and rises as `eigenvalues` says. With the averaged mass they are too low, and without this the
   /// descent lowers them further. 0: they may fall.
   double beyond = 0.5;
 };

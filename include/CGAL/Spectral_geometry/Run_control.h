@@ -41,10 +41,10 @@ enum class Phase {
 struct Progress
 {
   Phase phase; ///< what is being done
-  /// of this phase, in [0,1]; never decreases within a phase, on each thread that reports. A run
+  /// of this phase, in [0,1]; within a phase it never decreases on any thread that reports. A run
   /// may enter a phase again
   double fraction;
-  /// of the mesh that is simplified, as it is now; 0 where none is
+  /// current number of vertices of the mesh that is simplified; 0 if there is none
   std::size_t number_of_vertices = 0;
 
   operator double() const { return fraction; } ///< `fraction`

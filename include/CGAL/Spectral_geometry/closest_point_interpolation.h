@@ -17,16 +17,15 @@ namespace CGAL::Spectral_geometry {
 returns the matrix that interpolates functions on a triangulated surface at the closest points of
 given points.
 
-Row `i` holds the barycentric coordinates, in the face of the surface that is closest to
-`points.row(i)`, of the point of that face closest to `points.row(i)`: at most three nonzeros, none
-negative, which sum to 1. Zeros are not written. The function \f$ W g \f$ is the piecewise linear
-function `g` read off at the closest points, so that `W` times the vertices of the surface gives the
-closest points themselves.
+Row `i` holds the barycentric coordinates, in its face, of the surface point closest to
+`points.row(i)`: at most three nonzeros, none negative, which sum to 1. Zeros are not written. The
+vector \f$ W g \f$ has the values of the piecewise linear function `g` at the closest points, so
+that `W` times the vertices of the surface gives the closest points themselves.
 
-Where several points of the surface are equally close one of them is taken, always the same one for
-the same input. Bare points say nothing of the part of a body that they belong to: where an arm lies
-near the flank, or sheets nearly touch, they can take each other's values. For two meshes of one
-shape use `closest_point_restriction()` and `closest_point_prolongation()`, which do not.
+If several points of the surface are equally close, one of them is taken, always the same for the
+same input. A bare point does not tell to which part of a body it belongs: where an arm lies near
+the flank, or sheets nearly touch, it may get the values of the other part. For two meshes of one
+shape use `closest_point_restriction()` and `closest_point_prolongation()`, which avoid this.
 
 @param points `r` x 3, coordinates in the unit of the surface, whose squares do not overflow.
 @param surface `n` vertices and `m` triangles, `m > 0`. Faces without area count as their edges,
@@ -42,13 +41,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& surface);
 
 /*!
-returns a restriction `P` (coarse x fine) that does not depend on the simplifier, for judging any
-coarse mesh, whoever made it.
+returns a restriction `P` (coarse x fine) that does not depend on the simplifier, so that any coarse
+mesh can be judged with it.
 
-Its rows are those of `closest_point_interpolation()`, followed on the surface: the feet of two
-neighbours lie near each other on the fine surface as well. Where they do not, the vertices of the
-smaller group are looked for again, from the feet of their neighbours. It is not the transpose of
-the prolongation, and may have several nonzeros in a column.
+Its rows are those of `closest_point_interpolation()`, corrected so that the closest points of two
+neighbours are near each other on the fine surface as well. Where they are not, the vertices of the
+smaller group are searched again, from the closest points of their neighbours. It is not the
+transpose of the prolongation, and may have several nonzeros in a column.
 
 Throws `std::invalid_argument` for what `closest_point_interpolation()` refuses.
 */
@@ -56,13 +55,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 closest_point_restriction(const Mesh_matrices& coarse, const Mesh_matrices& fine);
 
 /*!
-returns the *prolongation* (fine x coarse), by which functions on a simplified mesh go back to the
-input: closest points of the coarse mesh, among the faces at most two edges away from the coarse
-vertex whose row of P is nearest on the fine surface.
+returns the *prolongation* (fine x coarse), which takes functions on a simplified mesh back to the
+input. Each row interpolates at the closest point of the coarse mesh, among the faces at most two
+edges away from the coarse vertex whose row of P is nearest on the fine surface.
 
 @param fine, coarse both meshes
-@param P coarse x fine, the restriction; where there is none `closest_point_restriction()`. Fine
-vertices in a component where it has no entry are looked for everywhere.
+@param P coarse x fine, the restriction; if there is none, `closest_point_restriction()`. Fine
+vertices of a component without entries of P are searched everywhere.
 
 Throws `std::invalid_argument` for what `closest_point_interpolation()` refuses, and a P of another
 size or with a row that does not sum to 1.
@@ -72,12 +71,12 @@ closest_point_prolongation(const Mesh_matrices& fine, const Mesh_matrices& coars
                            const Eigen::SparseMatrix<double>& P);
 
 /*!
-returns the rows of a restriction, of whatever origin, that read functions off another part of the
-body than their neighbours do, ascending: those that `closest_point_restriction()` would look for
-again. None in a good one.
+returns, ascending, the rows of any restriction that read functions off another part of the body
+than their neighbours do. `closest_point_restriction()` would search them again; a good restriction
+has none.
 
-A coarse edge counts as torn where the feet of its ends, \f$ P V \f$, lie further apart along the
-edges of the fine mesh than three times the length of the edge and the distances of the feet from
+A coarse edge counts as torn if the feet of its ends, \f$ P V \f$, are further apart along the edges
+of the fine mesh than three times the sum of the edge's length and the distances of the feet from
 the vertices.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>

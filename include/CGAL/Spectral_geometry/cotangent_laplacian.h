@@ -43,18 +43,17 @@ struct Laplace_operator
   double theta = 0.;
   /// whether `mass` is that of mixed Voronoi areas
   bool voronoi = false;
-  /// with `dirichlet` vertices of the border have no couplings in L and B, and `mass` is that of
-  /// before
+  /// with `dirichlet`, border vertices have no couplings in L and B; `mass` does not change
   Boundary_condition boundary = Boundary_condition::neumann;
   Eigen::Index vanishing = 0; ///< number of these vertices
-  /// their numbers; where they are missing, their rows count as the others do
+  /// their numbers; if they are missing, their rows are treated like the others
   std::vector<int> vanishing_vertices;
   bool has_coefficients = false; ///< whether it is that of other coefficients than 1
 };
 
 /// \brief returns how many eigenvalues of an operator are zero: one for each connected component of
-/// the graph of L on which constants are in the kernel: rows that sum to zero, in single precision
-/// at least. Nothing is read off eigenvalues.
+/// the graph of L whose rows sum to zero, at least in single precision, so that constants are in
+/// the kernel. No eigenvalue is computed.
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op);
 
 /// \brief the cotangents of a triangle's three angles and its area.
@@ -165,8 +164,8 @@ inline void check_local_operator(const Local_operator& op, const Eigen::Index n)
   }
 }
 
-/// The positions of a mesh, one in each row. Neither removed elements nor the lack of an internal
-/// index may matter: `index` gets the numbers of the vertices as they come.
+/// Returns the positions of a mesh, one in each row, and sets `index` to the numbers of the
+/// vertices as they come. So removed elements, or the lack of an internal index, do not matter.
 template <class Mesh, class NamedParameters, class Index_map>
 Eigen::MatrixXd numbered_positions(const Mesh& mesh, const NamedParameters& np, Index_map index)
 {
@@ -188,8 +187,8 @@ Eigen::MatrixXd numbered_positions(const Mesh& mesh, const NamedParameters& np, 
 
 } // namespace internal
 
-/// \brief returns a third of the area of each face of the mesh (V, T), which it gives to each of
-/// its corners.
+/// \brief returns, for each face of the mesh (V, T), a third of its area: the mass that each of its
+/// corners gets.
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd barycentric_corner_masses(const Eigen::MatrixXd& V,
                                                                         const Eigen::MatrixXi& T);
 

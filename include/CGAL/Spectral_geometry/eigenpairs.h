@@ -19,16 +19,16 @@ namespace CGAL::Spectral_geometry {
 ///
 /// Shift and invert: \f$(L - \sigma B)^{-1} B \phi = \nu \phi\f$, \f$\lambda = \sigma + 1/\nu\f$,
 /// by a Lanczos method with a factorisation of \f$L - \sigma B\f$. About six tenths of the wanted
-/// eigenvalues are below the shift \f$\sigma\f$, which the signs of the pivots count (Grimes, Lewis
-/// and Simon 1994): the iteration then approaches the wanted spectrum from both of its ends. For
-/// fewer than 16 pairs, a `maximum_vectors` that is given, or where no such shift serves, the shift
-/// is \f$-s\f$, where \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the
+/// eigenvalues lie below the shift \f$\sigma\f$; the signs of the pivots count them (Grimes, Lewis
+/// and Simon 1994). The iteration then approaches the wanted spectrum from both of its ends. For
+/// fewer than 16 pairs, if `maximum_vectors` is given, or where no such shift serves, the shift is
+/// \f$-s\f$. Here \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the
 /// matrix is positive definite, and the eigenvalues next to 0 are separated as well as with a
-/// smaller one. An L in another unit (entries a thousand times larger or smaller than cotangents)
-/// has s in that unit. Start vectors are fixed, so the result is the same in every run. With K =
-/// 100, `block` keeps about 2.4 K vectors of n doubles at a tolerance of 1e-8, 2.1 K at 1e-4, with
-/// the shift below 0 3.4 K and 2.8 K, never more than max(3.6 K, K + 120). More than 500 pairs are
-/// found some 120 at a time, each time with a shift among them.
+/// smaller s. If L is in another unit (entries a thousand times larger or smaller than cotangents),
+/// s is in that unit. Start vectors are fixed, so the result is the same in every run. With K =
+/// 100, `block` keeps about 2.4 K vectors of n doubles at a tolerance of 1e-8 and 2.1 K at 1e-4;
+/// with a negative shift 3.4 K and 2.8 K; never more than max(3.6 K, K + 120). More than 500 pairs
+/// are found about 120 at a time, each time with a shift among them.
 ///
 /// Eigenvectors are orthonormal in B. Signs: the first entry (in vertex order) that is larger in
 /// magnitude than 0.618 times the largest one is positive. Within an eigenspace of several
@@ -36,7 +36,8 @@ namespace CGAL::Spectral_geometry {
 ///
 /// \param op       the operator; eigenvalues are in the inverse of its unit of area
 /// \param K        number of eigenpairs, 1 <= K <= n; with the Dirichlet condition at most the
-/// number of vertices off the border \param options  method, tolerance, limits, threads, progress
+/// number of vertices off the border
+/// \param options  method, tolerance, limits, threads, progress
 ///
 /// \throws std::invalid_argument when K or an option is out of range or L, B differ in size;
 ///         std::runtime_error when the factorisation or the iteration fails;
@@ -100,14 +101,14 @@ inline Eigenpairs dense_eigenpairs(const Eigen_problem& problem, const Eigen::In
   return result;
 }
 
-/// Pairs of neighbouring numbers.
+/// A range of consecutive pairs.
 struct Pair_range
 {
   Eigen::Index first = 0, count = 0;
 };
 
-/// Sets all residuals, cuts what rounding has made negative, and returns the part of a range whose
-/// pairs have not the accuracy that they were to have, and that doubles can have.
+/// Sets all residuals, sets eigenvalues to 0 that rounding made negative, and returns the part of a
+/// range whose pairs miss the tolerance although doubles can reach it.
 inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs_options& options,
                                   const Pair_range range, Eigenpairs& pairs)
 {
@@ -127,9 +128,9 @@ inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs
   return failed;
 }
 
-/// One step of subspace iteration with the factor of L + s B, s the shift of the problem, which
-/// takes off what rounding has left of the highest modes: L enlarges that. What is not in the range
-/// stays.
+/// One step of subspace iteration with the factor of L + s B, s being the shift of the problem. It
+/// removes what rounding has left of the highest modes, which L enlarges. Pairs outside of the
+/// range stay.
 inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, const int threads,
                    const Pair_range range, Eigenpairs& pairs)
 {
@@ -150,7 +151,7 @@ inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, cons
         X(order[i], k + c) =
             (pairs.values(range.first + k + c) + s) * panel.row(Eigen::Index(i))[c];
   }
-  // What there is of lower modes has grown, that of higher ones has not.
+  // Parts of lower modes have grown, those of higher modes have not.
   if(range.first > 0) {
     const auto lower = pairs.vectors.leftCols(range.first);
     const Eigen::MatrixXd BX = problem.B() * X;
@@ -167,8 +168,8 @@ inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, cons
     pairs.values(k) = (std::max)(pairs.values(k), pairs.values(k - 1));
 }
 
-/// Whether pairs have their accuracy, if need be after some steps of `refine()`. Only within it
-/// they are complete.
+/// Whether pairs have their accuracy, if necessary after some steps of `refine()`. They are
+/// complete only within the tolerance.
 inline bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& options,
                            Eigenpairs& pairs)
 {
@@ -221,8 +222,8 @@ Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
                                     "; raise the tolerance or the number of iterations."));
 }
 
-/// Vertices that an entry of L or B joins, each part in their order, without those at which
-/// functions vanish.
+/// Returns the parts that entries of L or B join, each as vertices in their order, without those at
+/// which functions vanish.
 inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
 {
   const Eigen::Index n = op.L.rows();
@@ -249,7 +250,7 @@ inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
   return result;
 }
 
-/// Rows and columns of a part, in their order; `place`: of each of its vertices in it.
+/// Returns the rows and columns of a part, in their order; `place`: of vertices in their part.
 inline Laplace_operator operator_of_part(const Laplace_operator& op, const std::vector<int>& part,
                                          const std::vector<int>& place)
 {
@@ -273,7 +274,7 @@ inline Laplace_operator operator_of_part(const Laplace_operator& op, const std::
   return result;
 }
 
-/// The eigenvalues after the K-th, up to the first that a part may have and does not know.
+/// Returns the eigenvalues after the K-th, up to where a part may have unknown ones.
 inline Eigen::VectorXd further_values_of_parts(const std::vector<Eigenpairs>& pairs,
                                                const std::vector<std::vector<int>>& parts,
                                                const Eigen::Index K)
@@ -292,8 +293,8 @@ inline Eigen::VectorXd further_values_of_parts(const std::vector<Eigenpairs>& pa
   return Eigen::VectorXd::Map(values.data() + K, last - first);
 }
 
-/// The pairs of several parts are those of each, in the order of their values: as many as there are
-/// like parts are copies of each other, and a Krylov space of the whole would find eight at a time.
+/// Returns the pairs of all parts, in the order of their values. Equal parts have equal
+/// eigenvalues, and a Krylov space of the whole would find eight copies at a time.
 inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
                                  const std::vector<std::vector<int>>& parts, const Eigen::Index K,
                                  const Eigenpairs_options& options)
@@ -352,8 +353,7 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
   return result;
 }
 
-/// A sum of magnitudes beside the diagonal that is nowhere larger shows it (Gershgorin), as in the
-/// masses of meshes; otherwise a factorisation.
+/// Diagonal dominance is enough (Gershgorin), as in masses of meshes; otherwise a factorisation.
 inline void check_mass_matrix(const Eigen_problem& problem, const int threads)
 {
   if(!(dominance(problem.B()).array() > 0.).all())

@@ -50,24 +50,23 @@ struct Filtered_signals
 /// in the recurrence of \f$T_j\f$, give \f$Y = X q(X) w\f$ and \f$F = X Y\f$. From
 /// \f$\lambda x = s (1 - x)\f$ follows \f$Z = B^{-1} L F = s (Y - F)\f$ without a solve.
 ///
-/// The filter takes the noise as B w, whose covariance is B. From
+/// The filter takes the noise as B w, whose covariance is B. With
 /// \f[ B = \sum_{i<j} B_{ij} (e_i + e_j)(e_i + e_j)^T
 ///       + \sum_i \Bigl(B_{ii} - \sum_{j \ne i} B_{ij}\Bigr) e_i e_i^T \f]
-/// follows that it is the sum of these vectors, each times the root of its factor and a random
-/// sign.
+/// B w is the sum of these vectors, each times the root of its factor and a random sign.
 ///
 /// The coefficients minimise the squared distance of f to 1 below \f$\lambda_K\f$ and to 0 above,
 /// there with the weight \f$(\lambda/\lambda_K)^4\f$, as the metric E charges a mode. Eigenvalues
-/// count as evenly spread (Weyl's law). The cut-off \f$\lambda_K\f$ is where \f$L - \lambda_K
-/// B\f$ has K negative eigenvalues, to 5 %, which the signs of pivots tell (Sylvester's law of
-/// inertia): borders, components and coefficients change Weyl's constant. Where K is not larger
-/// than the number of components the cut-off is that of one eigenvalue more than these. Constants
-/// pass the filter; their part of Z is 0.
+/// are taken as evenly spaced (Weyl's law). At the cut-off \f$\lambda_K\f$ the matrix \f$L -
+/// \lambda_K B\f$ has K negative eigenvalues, to 5 %. The signs of pivots count them (Sylvester's
+/// law of inertia), since borders, components and coefficients change Weyl's constant. If K is not
+/// larger than the number of components, the cut-off is that of a few eigenvalues more than these.
+/// Constants pass the filter; their part of Z is 0.
 ///
-/// E is a sum of squares \f$\|A F\|^2\f$ with a linear A. Its expectation is that with
-/// eigenvectors of the weights f, its relative variance 2/r at most (Hutchinson 1989; Tremblay et
-/// al. 2016 sample graphs in this way). The first columns depend on `signals` by the factor
-/// \f$r^{-1/2}\f$ alone.
+/// E is a sum of squares \f$\|A F\|^2\f$ with a linear A. Its expectation is the E of eigenvectors
+/// with weights f, and its relative variance is at most 2/r (Hutchinson 1989; Tremblay et al. 2016
+/// sample graphs in this way). With another number of `signals` the first columns change only by
+/// the factor \f$r^{-1/2}\f$.
 ///
 /// \param op       the operator; rows of B are diagonally dominant, as with linear elements.
 ///                 With the Dirichlet condition F is 0 at the vertices of the border.
@@ -202,7 +201,7 @@ private:
   // --- the cut-off ---
 
   // Moves the cut-off until K eigenvalues are below it, to 5 %, or it is known to 5 %. Returns
-  // their number. Two equal counts show a gap, of twelve powers of ten beside needles.
+  // their number. Two equal counts reveal a gap, which beside needles spans twelve powers of ten.
   Index find_cutoff(Index K)
   {
     double lower = m_problem.rounding_of_values(), upper = std::numeric_limits<double>::infinity();
@@ -350,7 +349,7 @@ private:
   Eigen::VectorXd m_rest;
 };
 
-// Otherwise the mass is no sum of squares of pairs and vertices.
+// Checks that the mass is a sum of squares of pairs and vertices.
 inline void check_dominance(const Sparse_matrix& B)
 {
   const Eigen::VectorXd rest = dominance(B);
@@ -386,7 +385,7 @@ Filtered_signals filtered_signals(const Laplace_operator& op, Eigen::Index K,
   problem.check(K);
   internal::check_dominance(op.B);
   problem.report(0.);
-  // With constants alone there is no scale; of many the tolerance of the count is more than one.
+  // Constants alone have no scale; with many of them the tolerance of the count exceeds one.
   const Eigen::Index zeros = number_of_zero_eigenvalues(op);
   const Eigen::Index counted =
       (std::min)((std::max)(K, zeros + 1 + zeros / 19), problem.size() - op.vanishing);

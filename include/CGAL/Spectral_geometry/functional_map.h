@@ -86,8 +86,8 @@ coarse ones that `Q` carries back to the fine mesh:
      = 1 - \frac{1}{K} \mathrm{tr}(H^\top G^+ H), \quad
      G = \widetilde\Phi^\top Q^\top B Q \widetilde\Phi, \quad
      H = \widetilde\Phi^\top Q^\top B \Phi, \f]
-a number between 0, nothing is lost, and 1. It has no unit, and does not change where eigenvectors
-of one eigenvalue are rotated. Directions that \f$ Q \widetilde\Phi \f$ lacks count as lost.
+a number between 0 (nothing is lost) and 1. It has no unit, and does not change if eigenvectors of
+one eigenvalue are rotated. Directions that \f$ Q \widetilde\Phi \f$ lacks count as lost.
 
 @param fine_vectors \f$ \Phi \f$, fine x `K`, `K` at least 1, orthonormal in `fine_B`
 @param fine_B the mass matrix `B` of the fine mesh
@@ -115,9 +115,9 @@ discrete eigenvalue
 over `K` modes is 5.1 K^2/N for the lumped mass (theta = 0); the averaged mass (theta = 1/2) cancels
 it and leaves 2.2 K^3/N^2. The two terms are combined by their squares.
 
-An estimate to read a result by, not a bound: irregular meshes stay above it, a mesh that distorts
-the surface on purpose can fall below, and so does a sphere. A subdivided icosphere of 642 vertices
-out of 10,242 at K = 100 has 71 for 79 (lumped) and 8.1 for 5.3 (averaged).
+This is an estimate to compare with, not a bound: irregular meshes stay above it; a mesh that
+distorts the surface on purpose, or a sphere, can fall below. A subdivided icosphere of 642 vertices
+out of 10,242 at K = 100 has 71 (estimate: 79) lumped and 8.1 (estimate: 5.3) averaged.
 
 @param theta weight of the consistent mass, 0 lumped, 1/2 averaged
 @param K number of modes, at least 1
@@ -133,8 +133,8 @@ for the averaged mass.
 
 On the lattice of `commutativity_floor()` a sampled plane wave of unit norm has the discrete norm
 \f$ 1 - \theta x / 8 \f$ (squared). For the lumped mass the leading term vanishes and 0 is returned;
-on surfaces what is left is small (0.13 for a subdivided icosphere, 642 vertices out of 10,242, K =
-100; averaged 0.70 for 0.82).
+on surfaces what is left is small. A subdivided icosphere, 642 vertices out of 10,242, K = 100, has
+0.13; with the averaged mass it has 0.70, and the estimate is 0.82.
 
 Parameters as for `commutativity_floor()`.
 */
@@ -182,7 +182,7 @@ struct Eigenvalue_errors
 
 /*!
 returns the relative errors of the modes `first`, ..., `last - 1` (counted from 0) of `coarse`
-against `fine`, as far as both have them and the fine eigenvalue is not among the `zeros` first.
+against `fine`. Modes that one of both lacks, and the first `zeros` modes, are left out.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine,
                                                                   const Eigen::VectorXd& coarse,
@@ -201,12 +201,12 @@ coarse mesh. Norms are not squared.
 struct Spectral_evaluation
 {
   Eigen::Index requested_modes = 0; ///< the `K` that was asked for
-  /// the `K` of all figures: that one, or the number of coarse vertices if it is smaller
+  /// the `K` of all figures: `requested_modes`, or the number of coarse vertices if that is smaller
   Eigen::Index judged_modes = 0;
   /// number of coarse modes of `norm_D_extended`, 1.1 `K` or as many as were given
   Eigen::Index extended_modes = 0;
 
-  double theta = 0; ///< the same for the coarse mesh. Figures of different theta are not comparable
+  double theta = 0; ///< blend of the coarse mass; figures of different theta are not comparable
   /// "lumped", "averaged", "voronoi", "consistent", or "theta = ..." of the coarse mesh; both if
   /// they differ
   std::string mass;
@@ -216,13 +216,13 @@ struct Spectral_evaluation
   Eigen::VectorXd fine_values;
   Eigen::VectorXd coarse_values; ///< all coarse eigenvalues that were given, at unit area
   Eigen::Index fine_zeros = 0;   ///< number of fine eigenvalues that are zero, one per component
-  /// and of coarse ones; if they differ the modes compared are shifted
+  /// number of coarse ones; if they differ, the modes compared are shifted
   Eigen::Index coarse_zeros = 0;
 
   double norm_L = 0; ///< Eq. (3), not squared
   double norm_D = 0; ///< Eq. (4), not squared
-  /// Eq. (4) of the map with `extended_modes` rows: what is much smaller here than in `norm_D` was
-  /// not lost, it went into the next modes because eigenvalues `K` and `K + 1` are close
+  /// Eq. (4) of the map with `extended_modes` rows. If it is much smaller than `norm_D`, modes were
+  /// not lost: they went into the next ones, because eigenvalues `K` and `K + 1` are close
   double norm_D_extended = 0;
   /// Eq. (3) of the meshes as they are, in the inverse of their unit of area
   double norm_L_input_scale = 0;
@@ -253,15 +253,15 @@ those of the coarse mesh.
 
 One eigensolve per mesh serves every scale, see `unit_area_functional_map()`. What the figures mean:
 \f$ \|C\|_L \f$ and \f$ \|C\|_D \f$ vanish together if and only if the eigenpairs are kept exactly
-(theorem 1 of Lescoat et al. 2020). They depend on the mass, so compare within one theta, and they
-depend on `P`: a simplifier that made its own `P` is also judged with `closest_point_restriction()`.
+(theorem 1 of Lescoat et al. 2020). They depend on the mass: compare within one theta. They also
+depend on `P`: judge a simplifier that made its own `P` with `closest_point_restriction()` as well.
 
 @param fine, fine_pairs operator of the fine mesh and at least `K` of its eigenpairs, 1.5 `K` to
-judge the modes beyond; tight ones, the residual of a rough basis counts as an error of the
+judge the modes beyond. Their tolerance must be tight: residuals count as errors of the
 simplification
-@param coarse, coarse_pairs the same for the coarse mesh: at least `K` eigenpairs, or as many as it
-has vertices if these are fewer, in which case that many modes are judged; 1.1 `K` and 1.5 `K` fill
-  `norm_D_extended` and `errors_beyond`
+@param coarse, coarse_pairs the same for the coarse mesh. If it has fewer than `K` vertices, as many
+eigenpairs are enough, and that many modes are judged. 1.1 `K` and 1.5 `K` pairs fill
+`norm_D_extended` and `errors_beyond`
 @param P restriction, coarse x fine, rows that sum to 1
 @param K number of modes to judge, at least 1
 @param Q prolongation, fine x coarse, for `Spectral_evaluation::span_loss`; empty if there is none

@@ -17,8 +17,8 @@ namespace CGAL::Spectral_geometry {
 ///
 /// `averaged` cancels the leading discretisation error of the eigenvalues on equilateral triangles
 /// and largely reduces it elsewhere (blending from dispersion analysis: Marfurt 1984, Ainsworth and
-/// Wajid 2010). `voronoi` gives each corner of a triangle the part that is nearest to it; where the
-/// triangle is obtuse half of it to that corner, a quarter to the others (Meyer et al. 2003).
+/// Wajid 2010). `voronoi` gives each corner of a triangle the part that is nearest to it; in an
+/// obtuse triangle the obtuse corner gets half, the others a quarter each (Meyer et al. 2003).
 enum class Mass { lumped, averaged, voronoi, consistent };
 
 /// \brief the weight \f$\theta\f$ of the consistent mass in \f$B = (1-\theta) M_{lumped} + \theta
@@ -41,18 +41,18 @@ inline const char* mass_name(Mass mass)
 /// vertices of a mesh, n x 7: in each row the density \f$\rho\f$ and the conductivity D, a
 /// symmetric 3 x 3 matrix, as xx, xy, xz, yy, yz, zz.
 ///
-/// An operator sees of D what it does within the surface. Empty: \f$\rho = 1\f$, D the identity,
-/// the Laplace-Beltrami operator. Collapses merge them as they merge signals: with their
+/// Only what D does within the surface matters. Empty: \f$\rho = 1\f$, D the identity, the
+/// Laplace-Beltrami operator. Collapses merge coefficients as they merge signals: with their
 /// restriction P the coarse mesh has `P * coefficients`.
 using Operator_coefficients = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
 
-/// \brief what functions do on the border of a mesh: their derivative across it vanishes (the
-/// natural condition), or they do.
+/// \brief the condition on functions at the border of a mesh: their normal derivative vanishes
+/// (`neumann`, the natural condition), or they vanish themselves (`dirichlet`).
 enum class Boundary_condition { neumann, dirichlet };
 
 /*!
-\brief which stiffness and mass a mesh gets: what a triangle adds to them follows from its corners
-alone, which is what the metric of the collapses and relocation need to follow an operator.
+\brief which stiffness and mass a mesh gets. What a triangle adds to them follows from its corners
+alone: the metric of the collapses and relocation can follow such an operator.
 
 In a triangle with corners i, j, k, area A and the mean of its corners' coefficients, \f$\rho\f$ and
 D,
@@ -63,10 +63,10 @@ n its normal and \f$e_i\f$ the edge opposite to i, all edges one way round: \f$L
 -\cot(k)/2\f$ for the identity, c times that for a conductivity c. The shares s are 1/3 each, or
 those of mixed Voronoi areas in the metric of D. Constants are in the kernel of L, whatever D is.
 
-With `Boundary_condition::dirichlet` the matrices keep a row for each vertex. What couples vertices
-of the border to others is taken out of both, and what is left of their rows is 100 pi n over the
-mass of the mesh in the unit of L: far beyond most of the spectrum. `eigenpairs()` solves the
-problem without these rows, and its vectors are 0 there. The masses M stay what they are.
+With `Boundary_condition::dirichlet` the matrices keep a row for each vertex. Entries that couple
+border vertices to others are taken out of both. What is left of these rows has the eigenvalue 100
+pi n over the mass of the mesh in the unit of L, far beyond most of the spectrum. `eigenpairs()`
+solves the problem without these rows, and its vectors are 0 there. The masses M do not change.
 */
 struct Local_operator
 {

@@ -66,7 +66,7 @@ inline Operator_coefficients weighted_coefficients(const Eigen::VectorXd& densit
 }
 
 /// \brief returns coefficients at the vertices from coefficients of the faces, m x 7: the mean over
-/// the faces of a vertex, weighted by area. What jumps between faces is smoothed by that.
+/// the faces of a vertex, weighted by area. This smooths jumps between faces.
 ///
 /// Throws `std::invalid_argument` for matrices that do not belong together, or a vertex without a
 /// face.

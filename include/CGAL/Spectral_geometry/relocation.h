@@ -16,38 +16,37 @@ namespace CGAL::Spectral_geometry {
 
 /*!
 moves the vertices of a coarse mesh so that its Laplace-Beltrami operator agrees better with that of
-a fine one; which triangles there are stays; the restriction is a new one where signals are
-`sampled`.
+a fine one. The triangles stay; with `sampled` signals the result has a new restriction.
 
-It lowers the part of the residual of the metric (Eq. 2 of Lescoat et al. 2020) that the functional
-map sees, see `Relocation_energy`, over all positions by L-BFGS, with guards that are on by default:
-no triangle is inverted or degenerates, no new self-intersection, total area and volume and the
-eigenvalues beyond K are kept, no fine vertex comes to be further away than any was, no vertex
-leaves the place its signals were taken from, boundary vertices stay on the boundary. The mesh may
-come from anywhere: from an edge collapse with the restriction it carried, or from a remesher with
+L-BFGS over all positions lowers the part of the residual of the metric (Eq. 2 of Lescoat et al.
+2020) that the functional map sees, see `Relocation_energy`. Guards are on by default. No triangle
+is inverted or degenerates, and no new self-intersection appears. Total area, volume and the
+eigenvalues beyond K are kept. No fine vertex gets further away than the furthest was at the start.
+No vertex leaves the place its signals were taken from, and boundary vertices stay on the boundary.
+The mesh may come from an edge collapse, with its restriction, or from a remesher, with
 `closest_point_restriction()`.
 
-Nothing in that residual speaks for the coarse eigenvalues beyond K: their modes meet signals of
-lower eigenvalues only, and each term \f$ (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f$ falls
-when \f$ \widetilde\lambda_i \f$ does, although these eigenvalues are too low already.
-The term of the spectrum therefore holds the mean of the next K / 2 where it was; this takes the
-lowest 1.5 K eigenpairs of the coarse mesh and 16 more, and nothing of the fine one. They are found
-once and followed every ten steps, with eigenvalues to come to every five.
+This residual does not protect the coarse eigenvalues beyond K: their modes meet signals of lower
+eigenvalues only, and each term \f$ (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f$ falls when \f$
+\widetilde\lambda_i \f$ does, although these eigenvalues are too low already. The term of the
+spectrum therefore keeps the mean of the next K / 2 from falling, and raises it towards fine
+eigenvalues beyond K that are given. This needs the lowest 1.5 K eigenpairs of the coarse mesh and
+16 more, found once and updated every ten steps, or every five with eigenvalues as goals.
 
-Nor does the residual say in which directions low eigenvectors lie, which biharmonic distances see
-first. Where signals are sampled and eigenpairs and eigenvalues of the fine mesh are given, at most
-twelve of them are kept from turning towards each other.
+Nor does the residual fix the directions of low eigenvectors, on which biharmonic distances depend
+most. With sampled signals, and eigenpairs and eigenvalues of the fine mesh, at most twelve of them
+are kept from turning towards each other.
 
 A further term draws the surfaces together where they lie furthest apart,
 `Relocation_options::hausdorff_goal`. The spectrum hardly sees these places.
 
-Nor does the residual speak for how area is spread over the mesh, which distances and heat kernels
-depend on. Inner products of signals that are `sampled` are therefore drawn to those on the fine
-mesh, `Relocation_energy::keep_inner_products()`; without coefficients alone, since the density of
-the fine mesh is not known here, and not where `smoothing` is 0.
+Nor does the residual control how area is spread over the mesh, on which distances and heat kernels
+depend. Inner products of `sampled` signals are therefore drawn to those on the fine mesh, see
+`Relocation_energy::keep_inner_products()`. This is left out with coefficients, since the density of
+the fine mesh is not known here, and if `smoothing` is 0.
 
-Made for the averaged mass. With the lumped mass (theta = 0) the leading error of the elements has
-the size of what is to be repaired, and a descent cancels it by distorting the shape.
+Made for the averaged mass. With the lumped mass (theta = 0) the leading error of the elements is as
+large as what is to be repaired, and a descent cancels it by distorting the shape.
 
 @param V      coarse x 3, the positions, changed in place
 @param T      the triangles of the coarse mesh
@@ -60,7 +59,8 @@ the weight theta of the consistent mass
 @param options what to minimise, guards, when to stop
 
 Throws `std::invalid_argument` for matrices that do not belong together, an index, a number or an
-option out of range, `Cancelled` when it is cancelled; V is then as it was.
+option out of range, and `Cancelled` when it is cancelled. V is then as it was. Returns what was
+done, with the restriction to use.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result
 relocate_positions(Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
@@ -206,7 +206,7 @@ private:
               "relocation: ", face_name(f), " of the coarse mesh has no area; remove it.");
   }
 
-  // Goals change every fifth step, and the objective with them: what counts is what steps gain.
+  // The objective changes with its goals every fifth step: so the gains of the steps are summed.
   Stop_reason descend(Descent& descent, int& steps)
   {
     double last = descent.value(), gained = 0;
@@ -237,8 +237,8 @@ private:
     return Stop_reason::steps;
   }
 
-  // A vertex of the border has its row from the closest point of the border, among the loops that
-  // its row in P came from before; where it came from none its row stays.
+  // A border vertex gets its row from the closest point of those border loops that its row of P
+  // came from. If it came from none, the row stays.
   void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P, const Positions& V) const
   {
     std::vector<char> on_border = m_on_border;
@@ -264,8 +264,8 @@ private:
   }
 
   // |C|_L (Eq. 3) of both meshes at unit area, for signals of any kind: || A D - A~ Lambda~ C || /
-  // || C ||, where C and D are Phi~^T B~ P F and Phi~^T B~ P Z. 0 where a vertex without mass
-  // leaves no modes, and where signals that are constant on each component leave but rounding.
+  // || C ||, where C and D are Phi~^T B~ P F and Phi~^T B~ P Z. 0 if a vertex without mass leaves
+  // no modes, or if signals that are constant on each component leave only rounding.
   double norm(const Positions& V, const Eigen::SparseMatrix<double>& P) const
   {
     const Laplace_operator op = laplace_operator(V, m_T, m_op);
@@ -296,7 +296,7 @@ private:
     return result > 1e-6 * area * pencil_shift(op) ? result : 0.;
   }
 
-  // With the distances from V, or null where nothing is asked of them.
+  // Returns the term with the distances from V, or null if there is no goal.
   std::unique_ptr<Distance_term> distance_term(const Positions& V) const
   {
     if(!std::isfinite(m_options.hausdorff_goal))
@@ -311,11 +311,11 @@ private:
     return m_regions.are_near(v, i) || m_regions.are_near(v, j);
   }
 
-  // The positions that were given, but for two kinds of vertices. Those of the boundary go to the
-  // boundary of the fine mesh: collapses draw them off it. Those to which another limb is nearer go
-  // to their own, where closest points find it. A vertex stays where a triangle would turn over,
-  // become a needle or go through another one, one off the boundary also where the fine surface
-  // would be left behind; it may get there later.
+  // Returns the given positions, except for two kinds of vertices. Boundary vertices go to the
+  // boundary of the fine mesh, since collapses draw them off it. Vertices to which another limb is
+  // nearer go to the closest point of their own. A vertex stays if a triangle would turn over,
+  // become a needle or go through another one; off the boundary also if the fine surface would be
+  // left behind. It may get there later.
   Positions first_positions(const std::vector<bool>& fixed)
   {
     Positions V = m_given;
@@ -436,9 +436,9 @@ private:
     return mass;
   }
 
-  // Goes back where triangles that were apart meet and where the fine surface is left behind, and
-  // everywhere while the size is out of its bounds. Vertices that go back in two rounds stay from
-  // then on, so that the others go on around them. With one round |C|_D is 1.02 times as large.
+  // Moves vertices back where triangles that were apart meet or the fine surface is left behind,
+  // and all vertices while the size is out of bounds. Vertices that go back in two rounds then
+  // stay, and the others move around them. With one round |C|_D is 1.02 times as large.
   Positions repaired(Positions V)
   {
     for(int round = 0;; ++round) {
@@ -459,7 +459,7 @@ private:
       }
       for(Eigen::Index v = 0; v < V.rows(); ++v) {
         if(too_large || back[v]) {
-          // Half way back a vertex of the boundary would lie beside it.
+          // Half way back, a boundary vertex would lie off the boundary.
           const double kept = round < 12 && !m_guards.is_on_boundary(v) ? 0.6 : 0.;
           V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
         }
@@ -523,7 +523,7 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
     moved = relocation.run(result);
     keeps_inner_products = relocation.keeps_inner_products();
   }
-  // Little gained: without inner products, and with the eigenvalues at less and less weight.
+  // Little gained: again, without inner products and with less and less weight of the eigenvalues.
   const bool eigenvalues = options.eigenvalues.size() > 0 && limits.eigenvalue_error > 0;
   const Eigen::Index K = options.modes > 0 ? options.modes : F.cols();
   const bool gained =

@@ -27,8 +27,8 @@ public:
   virtual ~Position_dependent_signals() = default;
   /// writes the n x K signals F and their Laplacians Z at the n positions V.
   virtual void evaluate(const Positions& V, Rows& F, Rows& Z) = 0;
-  /// adds to the gradient what derivatives with respect to the entries of F and Z, where they were
-  /// evaluated last, mean for the positions.
+  /// adds to `gradient` the derivatives by the positions, given those by the entries of F and Z at
+  /// the positions evaluated last.
   virtual void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const = 0;
 };
 
@@ -42,10 +42,10 @@ A^{-1} R \|_B^2 + \mu E(V) . \f] In coarse eigenvectors, \f$ C = \widetilde\Phi^
 all of them, and with eigenvectors as signals, \f[ \|A^{-1} R\|_B^2 = \sum_{i,j} \frac{(\lambda_j -
 \widetilde\lambda_i)^2 C_{ij}^2}
    {(1 + \tau\widetilde\lambda_i)^2}, \f]
-where E has the same sum without the denominator. Most of E lies in
-coarse modes far beyond K, which \f$ \|C\|_L \f$ does not contain: a descent on E spends itself on
-them. With \f$ \tau \f$ near \f$ 1/\lambda_K \f$ the denominator takes them out. A little of \f$ \mu
-E \f$ keeps E from rising. With \f$ \tau = 0 \f$ the first term is left out: S is \f$ \mu E \f$.
+and E is this sum without the denominator. Most of E lies in coarse modes far beyond K, which \f$
+\|C\|_L \f$ does not contain: a descent on E would spend its steps on them. With \f$ \tau \f$ near
+\f$ 1/\lambda_K \f$ the denominator takes them out. A small \f$ \mu E \f$ keeps E from rising. With
+\f$ \tau = 0 \f$ the first term is left out: S is \f$ \mu E \f$.
 
 The signals may be given (carried by a restriction), depend on the positions, or both: S is the sum.
 
@@ -58,17 +58,16 @@ F^\top M \Big( F - \frac{\theta\, \mathrm{tr} M}{4 \sqrt 3\, n} Z \Big) \Big/ \m
 since an even mesh of n vertices, edges of length h, finds \f$ 1 - \theta \lambda h^2 / 8 \f$ for
 the square of a unit eigenvector that is read off at its vertices.
 
-The gradient is exact: derivatives with respect to the entries of B, L and M are gathered for each
-triangle into derivatives with respect to its three cotangents and its area, and go on from there to
-its corners. Residuals are made of differences F_j - F_w: the small ones of smooth signals are not
-lost in the rounding of large sums.
+The gradient is exact: the chain rule leads from the entries of B, L and M to the three cotangents
+and the area of each triangle, and from there to its corners. Residuals sum differences F_j - F_w:
+the small ones of smooth signals are not lost in the rounding of large sums.
 
-A value or a gradient takes O(n K); where tau is positive also one sparse Cholesky factorisation of
-A and for each signal one solve, two with a gradient. Signals are treated 32 at a time, so that what
-a solve works on stays in the cache, on as many threads as `set_threads()` says.
+A value or a gradient takes O(n K). If tau is positive, it also takes one sparse Cholesky
+factorisation of A, and for each signal one solve, two with a gradient. Signals are treated 32 at a
+time, so that a solve stays in the cache, on the threads of `set_threads()`.
 
-E does not see the side of a surface on which a vertex lies: it is a function of lengths, and knows
-nothing of inversions. Whoever moves vertices has to guard them, see `relocate_positions()`.
+E is a function of lengths: it does not see on which side of a surface a vertex lies, nor
+inversions. Guard the vertices that you move, see `relocate_positions()`.
 */
 class Relocation_energy
 {
@@ -111,11 +110,11 @@ public:
   /// n.
   Index number_of_vertices() const { return m_geometry.number_of_vertices(); }
 
-  /// The weight of E; the gradient follows.
+  /// Sets the weight of E, also in the gradient.
   void set_mu(const double mu) { m_mu = mu; }
 
   /// Adds nu times the differences of inner products of moving signals to S. `mass`: the lumped
-  /// mass of the fine mesh; F and Z, fine x K: these signals there.
+  /// mass of the fine mesh; F and Z, fine x K: these signals on it.
   void keep_inner_products(const Eigen::VectorXd& mass, const Eigen::MatrixXd& F,
                            const Eigen::MatrixXd& Z, const double nu)
   {
@@ -156,9 +155,9 @@ public:
     return evaluate(V, &gradient);
   }
 
-  /// The first term where the last value was taken.
+  /// Returns the first term where the last value was taken.
   double smoothed_part() const { return m_smoothed; }
-  /// E, without its weight, where the last value was taken.
+  /// Returns E, without its weight, where the last value was taken.
   double energy_part() const { return m_energy; }
 
 private:
@@ -179,7 +178,7 @@ private:
     return result;
   }
 
-  // What 32 signals add, and the memory to find it.
+  // The contribution of 32 signals, and scratch memory for it.
   struct Work
   {
     double smoothed, energy, inner = 0;
@@ -398,7 +397,7 @@ private:
     }
   }
 
-  // Makes Y and the first term of the R in Y, and X where derivatives are to be taken.
+  // Computes Y and the first term from the R in Y, and X if derivatives are needed.
   CGAL_SPECTRAL_INLINE void smooth(const bool derive, Work& work) const
   {
     Panel &Y = work.Y, &X = work.X;

@@ -19,13 +19,12 @@ The fine-to-coarse restriction matrix `P = Q_m ... Q_2 Q_1` of a sequence of ver
 A *slot* is the index, in `[0, n)`, of a vertex of the fine mesh. The merge of the slot `r`
 (removed) into the slot `k` (kept) with weight \f$ \alpha \f$ stands for the matrix `Q` with
 \f[ (Q F)_k = (1 - \alpha) F_k + \alpha F_r, \qquad (Q F)_w = F_w \ \mbox{for the other slots}, \f]
-after which `r`
-is gone and `k` goes on, and may be kept or removed by later merges.
+after which `r` is gone and `k` remains; later merges may keep or remove it.
 
-The slots merged into one another are disjoint sets, so every fine vertex ends in exactly one coarse
-vertex and `P` has at most one nonzero per column: the merges form a binary forest with a weight on
-each arc (\f$ \alpha \f$ for the removed side, \f$ 1 - \alpha \f$ for the kept one), and a nonzero
-of `P` is the product of the arcs from a fine vertex up to its root. The forest is stored as the log
+Slots merged into one another form disjoint sets, so every fine vertex ends in exactly one coarse
+vertex, and `P` has at most one nonzero per column. The merges form a binary forest with a weight on
+each arc (\f$ \alpha \f$ for the removed side, \f$ 1 - \alpha \f$ for the kept one). A nonzero of
+`P` is the product of the weights from a fine vertex up to its root. The forest is stored as the log
 of its merges in order. Reading the log backwards visits every node before its two children, so that
 `P` is expanded in linear time, at the end of the log or after any number of its merges, without a
 single product of sparse matrices.
@@ -81,7 +80,7 @@ public:
     m_alive[removed] = false;
   }
 
-  /// makes room for so many merges in all.
+  /// reserves memory for this many merges in all.
   void reserve(Index number_of_merges) { m_merges.reserve(std::size_t(number_of_merges)); }
 
   /// number of vertices of the fine mesh, the columns of `P`.
@@ -96,7 +95,7 @@ public:
   /// the merges in the order in which they happened, from which a run can be replayed.
   const std::vector<Merge>& merges() const { return m_merges; }
 
-  /// the slots that are left after the first `number_of_merges` merges, or after all, ascending.
+  /// returns the slots left after the first `number_of_merges` merges, or after all, ascending.
   std::vector<Index> kept_slots(const std::optional<Index> number_of_merges = {}) const
   {
     const std::vector<bool> alive = alive_after(number_of_merges);
@@ -108,7 +107,7 @@ public:
   }
 
   /*!
-  returns `P` (`slots.size()` x `number_of_slots()`): row `i` is the coarse vertex that lives in
+  returns `P` (`slots.size()` x `number_of_slots()`): row `i` belongs to the coarse vertex in
   `slots[i]`.
 
   At most one nonzero per column; zeros (a merge with weight 0 or 1 makes some) are not written.
@@ -117,9 +116,8 @@ public:
   @param slots every slot that is left after the merges, once, in the order wanted for the rows: for
   a simplified mesh the slots of `vertices(mesh)` in their order, which `collect_garbage()` may
   change.
-  @param number_of_merges the length of the beginning of the log that is expanded, between 0 (`P` is
-  a permutation) and `number_of_merges()`, the default: `P` of any intermediate level of the
-  simplification.
+  @param number_of_merges how many merges of the log are expanded, from 0 (`P` is a permutation) to
+  `number_of_merges()`, the default: this gives `P` of any intermediate level of the simplification.
 
   Throws `std::invalid_argument` if `slots` is not a list of the slots that are left, or if there
   are fewer merges.

@@ -38,22 +38,21 @@ inline double memory_of_eigenpairs(const double n, const double K,
 /// @{
 
 /*!
- * Returns about how many bytes `spectral_edge_collapse()` takes at its peak, the mesh included: to
- * be compared with what the machine has before a large mesh is started. Two phases compete: the
- * Krylov space of the eigensolver, of 2.6 K vectors of n doubles and 20 K^2 doubles of its
- * projected problem (or `Eigenpairs_options::maximum_vectors`; K + 750 vectors beyond 500
- * pairs; 3.5 K where the mesh has more than four components, which is not looked at; 5.2 n^2
- * doubles where the solve is dense, see `Eigenpairs_method`), and the loop, which keeps the
- * eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or mixtures that the metric
- * sees. Relocation keeps F and Z of these, and the rows of them that it reads;
- * `fit_operators_of_run()` solves once more beside them. Filtered noise takes a factor and the
- * signals. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates
- * are within about a quarter.
+ * Returns an estimate of the peak memory of `spectral_edge_collapse()` in bytes, the mesh included.
+ * Compare it with the memory of the machine before you start a large mesh. Two phases compete. The
+ * Krylov space of the eigensolver has 2.6 K vectors of n doubles, and its projected problem 20 K^2
+ * doubles. (Other cases: `Eigenpairs_options::maximum_vectors`; K + 750 vectors beyond 500 pairs;
+ * 3.5 K with more than four components, which is not checked; 5.2 n^2 doubles for a dense solve,
+ * see `Eigenpairs_method`.) The loop keeps the eigenpairs (n K doubles) and 384 bytes per vertex
+ * for every 16 signals or mixtures that the metric sees. Relocation keeps F and Z of these, and the
+ * rows of them that it reads; `fit_operators_of_run()` solves once more beside them. Filtered noise
+ * takes a factor and the signals. The constants were measured on closed meshes of 50,000 to 500,000
+ * vertices; estimates are within about a quarter.
  *
  * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the
  * first stage takes a number of bytes per vertex of the input that does not depend on K. What
  * `quadrics_above` saves in the loop is not subtracted, and eigenpairs that judge the relocation of
- * `fast()` below 2 K vertices are not added.
+ * `fast()` (K up to 32, or below 2 K vertices) are not added.
  *
  * The shape term keeps a quadric for each vertex,
  * `Spectral_options::keep_free_of_self_intersections` a tree of boxes.
@@ -111,16 +110,16 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
 }
 
 /*!
- * Returns about how many bytes it takes to judge a result by
- * `Spectral_geometry::evaluate_spectrum()`: first the eigenpairs of the whole input, whatever
- * `Spectral_edge_collapse_options::pre_simplify` was, then those of the result beside them. It
- * comes after the run of `estimated_memory()`: the larger one counts.
+ * Returns an estimate of the memory in bytes to judge a result by
+ * `Spectral_geometry::evaluate_spectrum()`. It holds first the eigenpairs of the whole input,
+ * whatever `Spectral_edge_collapse_options::pre_simplify` was, then also those of the result. The
+ * evaluation comes after the run of `estimated_memory()`: the larger number counts.
  *
  * @param number_of_vertices n of the input
  * @param number_of_coarse_vertices N of the result, at most n
  * @param number_of_eigenvectors K pairs of either mesh; as many as it has where these are fewer
  * @param options of both solves
- * @param pairs_are_known whether those of the input are at hand, and need not be solved for
+ * @param pairs_are_known whether the pairs of the input are known, so that no solve is needed
  */
 inline double estimated_evaluation_memory(const std::size_t number_of_vertices,
                                           const std::size_t number_of_coarse_vertices,

@@ -9,7 +9,7 @@
 \file
 \brief for the one source file that compiles what `CGAL_SPECTRAL_TOOLBOX_COMPILED` leaves out of all
 others: every function of the toolbox that depends on no mesh type. Without that macro nobody needs
-this file. The CMake target `Spectral_mesh_simplification::toolbox` is that, ready made.
+this file. The CMake target `Spectral_mesh_simplification::toolbox` does it for you.
 */
 
 #if defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) && \

@@ -18,21 +18,21 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * Chooses, after `spectral_edge_collapse()`, a Laplacian and a mass of the mesh that it has left,
- * so that they have the spectrum of the input: `Spectral_geometry::fit_operators()` with the
- * operator of the run. They are fitted to `Spectral_options::eigenpairs` where these were given,
- * else to a fifth more eigenpairs than K, which takes a solve on the input, whatever `pre_simplify`
- * was. A run that was cancelled can be fitted to as well.
+ * Fits a Laplacian and a mass, on the mesh left by `spectral_edge_collapse()`, to the spectrum of
+ * the input: `Spectral_geometry::fit_operators()` with the operator of the run. They are fitted to
+ * `Spectral_options::eigenpairs` if these were given, otherwise to a fifth more eigenpairs than K.
+ * The latter takes a solve on the input, whatever `pre_simplify` was. The run may have been
+ * cancelled.
  *
  * @param input the mesh before the run
  * @param output the mesh that it has left
  * @param options of the run, not with `signals` or the Dirichlet condition
  * @param result of the run
- * @param fit how they are chosen; its progress callback is told of the solve by the first half
+ * @param fit how to fit; its progress callback gets the solve as the first half
  * @return the operators, rows in the order of those of `result.restriction`
  *
- * Throws as `Spectral_geometry::eigenpairs()` and `Spectral_geometry::fit_operators()` do,
- * `std::invalid_argument` for options of the run that it does not go with.
+ * Throws as `Spectral_geometry::eigenpairs()` and `Spectral_geometry::fit_operators()` do, and
+ * `std::invalid_argument` for the excluded options of the run.
  */
 inline Spectral_geometry::Operator_fit_result fit_operators_of_run(
     const Spectral_geometry::Mesh_matrices& input, const Spectral_geometry::Mesh_matrices& output,

@@ -30,10 +30,10 @@ struct Operator_fit_options : Run_control
   /// of the mesh alone, where \f$ \|C\|_D \f$ gains nothing: what a single ring adds for high modes
   /// it takes from the eigenvalues of low ones.
   int rings = 2;
-  /// e: the residual of signal k has the weight \f$ (\lambda_k + 4 \pi)^{-e} \f$. More is for
-  /// distances and signatures, which live on the lowest modes, less for the functional map: with 1
-  /// in place of 2.5 \f$ \|C\|_L \f$ is 0.83 times as large, and errors of biharmonic distances
-  /// are 1.6 times, of diffusion distances 2.4 times as large (four meshes). From 0 to 20.
+  /// e: the residual of signal k has the weight \f$ (\lambda_k + 4 \pi)^{-e} \f$. More favours
+  /// distances and signatures, which live on the lowest modes; less the functional map. With 1 in
+  /// place of 2.5 \f$ \|C\|_L \f$ is 0.83 times as large, and errors of biharmonic distances are
+  /// 1.6 times, of diffusion distances 2.4 times as large (four meshes). From 0 to 20.
   double low_modes = 2.5;
   /// mu: weight of the orthonormality of the restricted eigenvectors beside commutativity. More
   /// lowers \f$ \|C\|_D \f$ and raises \f$ \|C\|_L \f$ and the errors of the eigenvalues; from 0.
@@ -43,10 +43,10 @@ struct Operator_fit_options : Run_control
   /// beyond K; from 0.
   double whole_residual = 0.2;
   /// tau: weight of the mean squared change of an entry, relative to the entry and a typical one.
-  /// Positive: it alone decides on what the eigenvectors do not.
+  /// Positive: it alone decides what the eigenvectors leave open.
   double regularization = 0.05;
-  /// No weight of an edge falls below this part of its own, nor of a twentieth of the median one:
-  /// what keeps each component together. In ]0, 1].
+  /// No edge weight falls below this part of its own value, nor of a twentieth of the median one:
+  /// this keeps each component together. In ]0, 1].
   double smallest_weight = 0.02;
   /// No b_v falls below this part of the vertex' own row sum, or of a thousandth of the mean one
   /// where that is more. In ]0, 1].
@@ -54,11 +54,11 @@ struct Operator_fit_options : Run_control
 
   /// Ends when gap and Newton decrement are below this part of the objective. In ]0, 1[.
   double tolerance = 0.05;
-  /// Ends after so many iterations, each of one factorisation and a few products; from 0.
+  /// Largest number of iterations, each of one factorisation and a few products; from 0.
   int maximum_iterations = 30;
 
-  /// For a mass of the blend \f$ \theta \f$ of `laplace_operator()`: on the edges, where it is
-  /// lumped on the diagonal.
+  /// Returns options for a mass of the blend \f$ \theta \f$ of `laplace_operator()`: on the edges,
+  /// or on the diagonal if it is lumped.
   static Operator_fit_options for_mass(double theta)
   {
     Operator_fit_options options;
@@ -72,7 +72,7 @@ struct Operator_fit_result
 {
   /// L, B, and the row sums of B; `theta` is that of the coarse operator, 0 for a diagonal mass
   Laplace_operator op;
-  /// what was minimised, for the own entries brought inside of the bounds and to the total
+  /// the objective for the mesh's own entries, brought inside of the bounds and to the total
   double objective_before = 0;
   double objective_after = 0; ///< and for those of `op`, never larger
   int iterations = 0;         ///< of the barrier method
@@ -89,19 +89,19 @@ which compute with operators and not with triangles. The result goes to `eigenpa
 `evaluate_spectrum()` and whatever takes an operator. It is not for what needs the cotangents or the
 areas of the actual triangles.
 
-With \f$ G = P \Phi \f$ (but for vertices whose own mode \f$ L_{vv} / M_v \f$ is more than eight
-times the highest fitted eigenvalue and the median of all: there row v of \f$ L g = \lambda B g \f$
-is solved for G, by ten sweeps of Gauss and Seidel), all at unit area, D the lumped mass of the
-coarse mesh and \f$ R = \widetilde B G \Lambda - \widetilde L G \f$, it minimises
+Let \f$ G = P \Phi \f$, D the lumped mass of the coarse mesh and \f$ R = \widetilde B G \Lambda -
+\widetilde L G \f$, all at unit area. (Exceptions are vertices whose own mode \f$ L_{vv} / M_v \f$
+is more than eight times the highest fitted eigenvalue and the median of all: there ten Gauss-Seidel
+sweeps solve row v of \f$ L g = \lambda B g \f$ for G.) The function minimises
 \f[ \|G^\top R\|_W^2 + \eta \|D^{-1/2} R\|_W^2 + \mu \|G^\top \widetilde B G - I\|^2
    + \frac{\tau}{N} \sum_a \left( \frac{x_a - x_a^0}{x_a^0 + s_a} \right)^2 \f]
-where W weights the signals by \f$ (\lambda_k + 4\pi)^{-e} \f$, made relative by \f$ \mathrm{mean}(W
+where W weights the signals by \f$ (\lambda_k + 4\pi)^{-e} \f$, relative to \f$ \mathrm{mean}(W
 \lambda^2) \f$: 4 pi is the mean spacing of eigenvalues at unit area (Weyl's law), and e = 2 would
 ask for the same relative accuracy of all modes. The first term is \f$ \|C \Lambda -
 \widetilde\Lambda C\| \f$ when G stands for the coarse eigenvectors, the second the metric E (Eq. 2
-of Lescoat et al. 2020). The last ties the N and more unknowns x (the weights w, m, b below) to what
-they are of the mesh's own entries, \f$ x_a^0 \f$; \f$ s_a \f$ is the median weight of an edge or
-the mean mass of a vertex, for a term of a thin triangle \f$ x_a^0 \f$ more.
+of Lescoat et al. 2020). The last term ties the unknowns x, N and more (the weights w, m, b below),
+to their values \f$ x_a^0 \f$ for the mesh's own entries. \f$ s_a \f$ is the median weight of an
+edge or the mean mass of a vertex, plus \f$ x_a^0 \f$ for a term of a thin triangle.
 
 **Both matrices are definite, whatever the input.**
 \f[ \widetilde L = \sum_a w_a \, d_a d_a^\top, \qquad
@@ -116,18 +116,19 @@ triangles \f$ d_a = e_i + e_j - e_k - e_l \f$, the second difference across it: 
 far vertices, make up for a diagonal mass. The total of the mass of each component is that of the
 coarse mesh (an exact scaling of both matrices follows a penalty that leaves little to do).
 
-This is a convex quadratic program with bounds. A primal-dual barrier method solves it from the own
-entries on, each step by conjugate gradients: products are formed from signals (O(N K^2)), the
-Cholesky factor of the sparse normal matrix of the second term preconditions, kept while it does.
-Time and memory are linear in N but for the fill-in of that factor. Whenever it stops the result is
-inside of the bounds, up to that scaling, and its objective not larger than that of the own entries.
+This is a convex quadratic program with bounds. A primal-dual barrier method solves it from the
+mesh's own entries on. Each step uses conjugate gradients: products are formed from signals (O(N
+K^2)), and the Cholesky factor of the sparse normal matrix of the second term preconditions while it
+serves. Time and memory are linear in N but for the fill-in of that factor. Whenever it stops, the
+result is within the bounds, up to that scaling, and its objective not larger than that of the own
+entries.
 
-@param coarse operator of the coarse mesh. What is off the diagonal of L gives the pattern of both
-and where L starts, B where the mass does; the mass gives D and the total
+@param coarse operator of the coarse mesh. The entries of L off the diagonal give the pattern of
+both matrices and the start of L, B the start of the mass; `mass` gives D and the total
 @param P      restriction, coarse x fine
-@param fine   operator of the fine mesh, of which the area is taken
-@param fine_pairs its eigenpairs, orthonormal in its mass. With a fifth more of them than are to be
-judged the modes beyond, and \f$ \|C\|_D \f$, gain more
+@param fine   operator of the fine mesh, of which only the area is used
+@param fine_pairs its eigenpairs, orthonormal in its mass. A fifth more pairs than are judged
+improve the modes beyond, and \f$ \|C\|_D \f$
 @param options weights, bounds, pattern, when to stop
 
 Throws `std::invalid_argument` with one sentence that names the first offender for matrices that do
@@ -298,8 +299,8 @@ private:
                                [&](Index a) { return of_components(m_component[a]); });
   }
 
-  // Each component with the mass that it has: without that those that fit badly would shrink, which
-  // lowers their residual.
+  // Gives each component the mass that it has. Otherwise components that fit badly would shrink,
+  // which lowers their residual.
   Vector scaled(const Vector& x) const
   {
     return x.cwiseProduct(spread(m_share.cwiseQuotient(totals(x))));
@@ -414,8 +415,8 @@ private:
   }
 
   // The lower triangle of H = sum_v A_v A_v^T / D_v, where row v of R, times the root of W, is
-  // A_v^T x. It only preconditions: of a vertex in whose row very many unknowns are, the diagonal
-  // is enough.
+  // A_v^T x. It only preconditions: for a vertex with very many unknowns in its row the diagonal is
+  // enough.
   void assemble_normal_matrix(const Rows& G)
   {
     const Index nL = m_stiffness.size();
@@ -589,8 +590,8 @@ private:
     return 1. / (std::max)(1., (-dv.cwiseQuotient(v)).maxCoeff() / 0.95);
   }
 
-  // What keeps the cost linear in the degree of a vertex: a second ring of more neighbours is left
-  // out, a block of more unknowns of the preconditioner is diagonal.
+  // Limits that keep the cost linear in the degree of a vertex: a second ring of more neighbours is
+  // left out, and a block of more unknowns in the preconditioner is diagonal.
   static constexpr Index largest_star = 64, largest_block = 256;
   static constexpr Index rows_of_block = 128;
   // of the totals of the mass; the other terms are about 1 or less
@@ -610,11 +611,10 @@ private:
   int m_steps = 1000; // of conjugate gradients, the last time
 };
 
-// A vertex whose own mode, the diagonal of L over the mass, lies far above the fitted ones and
-// those of other vertices has of each of the former what its neighbours say: row v of L g = lambda
-// B g, as ten sweeps of Gauss and Seidel leave it. That is used in place of what P reads there,
-// which may be another sheet, as in a pocket of the surface: its entries would be fitted to that,
-// and its mode come down among the fitted ones.
+// The own mode of a vertex is the diagonal of L over the mass. Where it lies far above the fitted
+// eigenvalues and the own modes of other vertices, the neighbours give the value of each fitted
+// mode: ten Gauss-Seidel sweeps solve row v of L g = lambda B g. P may read another sheet there, as
+// in a pocket of the surface; fitted to it, the vertex' mode would come down among the fitted ones.
 inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::VectorXd& lambda,
                                    Eigen::MatrixXd& G)
 {

@@ -26,8 +26,8 @@ returns the operator \f$ \Omega_f = \Phi^\top W_f \Phi \f$ with
              = \sum_{(v_1, v_2, v_3) \ni v}
                \frac{(f_2 - f_1)(g_3 - g_1) - (f_3 - f_1)(g_2 - g_1)}{6} \f]
 for linear elements with hat functions \f$ \psi_v \f$. A map that keeps f and the orientation
-commutes with it, one that mirrors the surface changes its sign: the term that tells left from right
-(Ren, Poulenard, Wonka and Ovsjanikov 2018). It depends on the triangles, not on the positions.
+commutes with it; one that mirrors the surface changes its sign. So it tells left from right (Ren,
+Poulenard, Wonka and Ovsjanikov 2018). It depends on the triangles, not on the positions.
 
 @param T the triangles, m x 3, oriented
 @param vectors \f$ \Phi \f$, n x k
@@ -74,8 +74,8 @@ linear system of the size of C. Pairs of operators are scaled to the norm \f$ \s
 @param f, g descriptors, n_X x d and n_Y x d, column i of both being the same function of the
 surface. Times and energies must be the same for both shapes. Their scale does not matter
 @param k number of modes; time grows with \f$ k^6 \f$: 20 to 30 are usual
-@param weights of the terms; with none of multiplication and orientation the rows of C are
-independent and few descriptors leave it underdetermined, which commutativity then decides
+@param weights of the terms; without multiplication and orientation the rows of C are independent,
+and few descriptors leave it underdetermined: commutativity then decides
 @return k x k
 
 Throws `std::invalid_argument` if sizes do not match, `std::runtime_error` if the system is singular
@@ -88,7 +88,7 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y,
 
 /*!
 returns the orthogonal matrix nearest to a functional map in the Frobenius norm, \f$ U V^\top \f$ of
-\f$ C = U S V^\top \f$ (orthogonal Procrustes): a map between surfaces that keeps areas has an
+\f$ C = U S V^\top \f$ (orthogonal Procrustes): an area-preserving map between surfaces has an
 orthogonal one (Ovsjanikov et al. 2012).
 
 @param C square
@@ -99,8 +99,8 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd nearest_orthogonal_map(const Eigen:
 
 /*!
 refines a functional map by spectral up-sampling: ZoomOut (Melzi, Ren, Rodola, Sharma, Wonka and
-Ovsjanikov 2019). The map of k modes gives a map of points, that one a functional map of k + `step`
-modes, until `last` modes are reached.
+Ovsjanikov 2019). The functional map of k modes gives a map of points, which gives a functional map
+of k + `step` modes, and so on until `last` modes.
 
 Points are taken from the faces of X, not only from its vertices, see `target_to_source_points()`:
 on coarse meshes the rounding to vertices would be the largest error.
@@ -110,8 +110,7 @@ on coarse meshes the rounding to vertices would be the largest error.
 @param last number of modes to end with, at least k, at most what both shapes have
 @param step at least 1
 @param control of the searches
-@return \f$ C_{X,Y} \f$, `last` x `last`. It is that of a map of points, also when k is `last`
-already
+@return \f$ C_{X,Y} \f$, `last` x `last`. It comes from a map of points, even if k is `last` already
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X,
                                                       const Spectral_shape& Y, Eigen::Index last,

@@ -35,8 +35,8 @@ lifts a functional map between two coarse meshes to the fine meshes that they we
 solves
 \f[ C_{Y,\widetilde Y} \, C_{X,Y} = C_{\widetilde X,\widetilde Y} \, C_{X,\widetilde X} \f]
 for \f$ C_{X,Y} \f$ in the sense of least squares (section 5.2 of Lescoat et al. 2020). Both sides
-are the map from the fine source X to the coarse target \f$ \widetilde Y \f$: over the fine target
-on the left, over the coarse source on the right.
+are the map from the fine source X to the coarse target \f$ \widetilde Y \f$: through the fine
+target on the left, through the coarse source on the right.
 
 \f$ C_{X,\widetilde X} \f$ and \f$ C_{Y,\widetilde Y} \f$ are those of the restrictions, by
 `functional_map()` and `unit_area_functional_map()`; the paper uses binary restrictions here. All
@@ -45,7 +45,7 @@ they are.
 
 Conditioning: a simplification that keeps the spectrum makes \f$ C_{Y,\widetilde Y} \f$ nearly
 orthonormal, with all singular values close to 1. A mode of Y that the coarse mesh has lost shows as
-a small one, by whose inverse errors of the coarse map would be multiplied. Singular values below
+a small one, whose inverse would multiply the errors of the coarse map. Singular values below
 `tolerance` times the largest are therefore cut off, and of the remaining solutions the one of
 smallest norm is returned.
 
@@ -53,7 +53,7 @@ smallest norm is returned.
 @param coarse \f$ C_{\widetilde X,\widetilde Y} \f$, (coarse modes of Y) x (coarse modes of X)
 @param target_restriction \f$ C_{Y,\widetilde Y} \f$, (coarse modes of Y) x (fine modes of Y); with
 at least as many rows as columns the system is not underdetermined
-@param tolerance in [0, 1[; less than 1e-14, which is rounding, counts as that
+@param tolerance in [0, 1[; values below 1e-14, which is rounding, count as 1e-14
 
 Throws `std::invalid_argument` if sizes do not match, a number is not finite or the tolerance out of
 range.

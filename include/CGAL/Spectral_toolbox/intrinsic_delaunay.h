@@ -18,21 +18,21 @@ namespace CGAL::Spectral_geometry {
 /// the mesh (V, T): for meshes with needles and obtuse triangles.
 ///
 /// The surface and the vertices stay as they are, and so does the area. Edges become geodesics of
-/// the surface: an edge with two faces is flipped within them, laid out in the plane, until no two
-/// opposite angles are larger than \f$\pi\f$ together,
-/// \f$\cot\alpha_{ij} + \cot\beta_{ij} \ge 0\f$ (Bobenko and Springborn 2007, Fisher et al. 2007,
-/// Sharp and Crane 2020). Each flip lowers the Dirichlet energy of every function (Rippa 1990), so
-/// \f$L_{plain} - L\f$ is positive semidefinite where all faces have an area, and it lowers the sum
-/// of all cotangents, so flips end. Off-diagonal entries of \f$L\f$ are at most 0 to rounding,
-/// which gives a maximum principle, unless an obtuse angle faces an edge that is never flipped: one
-/// on a border, with more than two faces, or with two whose orientations disagree; or one beside a
-/// face that has no area still. A mesh that is Delaunay has the L and B of `laplace_operator()`.
+/// the surface: an edge with two faces, laid out in the plane, is flipped within them until no two
+/// opposite angles sum to more than \f$\pi\f$, \f$\cot\alpha_{ij} + \cot\beta_{ij} \ge 0\f$
+/// (Bobenko and Springborn 2007, Fisher et al. 2007, Sharp and Crane 2020). Each flip lowers the
+/// Dirichlet energy of every function (Rippa 1990), so \f$L_{plain} - L\f$ is positive semidefinite
+/// where all faces have an area. It also lowers the sum of all cotangents, so flips end.
+/// Off-diagonal entries of \f$L\f$ are at most 0 to rounding, which gives a maximum principle. The
+/// exception is an obtuse angle that faces an edge which is never flipped: one on a border, with
+/// more than two faces, or with two whose orientations disagree; or one beside a face that still
+/// has no area. A mesh that is Delaunay has the L and B of `laplace_operator()`.
 ///
 /// L and B are those of linear elements on the intrinsic triangles, see `laplace_operator()`; there
 /// can be edges from a vertex to itself, which add nothing to L, and several between two vertices.
 /// Functions are linear on the intrinsic triangles, not on the faces T: only their values at the
 /// vertices belong to both. Faces of zero area contribute nothing; one with a corner between its
-/// other two is gone after the flips, and connects what it had torn apart.
+/// other two is gone after the flips, which connects what it had torn apart.
 ///
 /// `Spectral_options::operator_of_eigenpairs` hands it to a simplification:
 /// `options.operator_of_eigenpairs = [](const auto& V, const auto& T) { return
@@ -42,8 +42,8 @@ namespace CGAL::Spectral_geometry {
 /// \param T      m x 3 vertex indices, counted from 0; the mesh need not be a manifold
 /// \param mass   averaged (\f$\theta = 1/2\f$, default), lumped, voronoi or consistent
 ///
-/// Time: that of sorting 3 m edges, and a constant for each flip. A face is part of 10000 flips at
-/// most, for surfaces that are thinner than rounding, around which edges wind without end; meshes
+/// Time: that of sorting 3 m edges, and a constant for each flip. A face takes part in at most
+/// 10000 flips, since edges wind without end around surfaces that are thinner than rounding; meshes
 /// of needles take hundreds.
 ///
 /// \throws std::invalid_argument that names the first offender: a coordinate that is not finite, an
@@ -181,7 +181,7 @@ private:
     return {degenerate, cotangents(f) + cotangents(g), degenerate == 2 ? length : 0.};
   }
 
-  // Makes (c, i, d) and (d, j, c) of the faces (c, i, j) and (d, j, i), unless that lowers nothing.
+  // Turns (c, i, j) and (d, j, i) into (c, i, d) and (d, j, c), unless that lowers nothing.
   bool flip(const int s)
   {
     const int t = twin(s), s1 = next(s), s2 = next(s1), t1 = next(t), t2 = next(t1);
@@ -224,9 +224,9 @@ private:
     return true;
   }
 
-  // A face takes part in so many at most. Large meshes of needles take hundreds. Where a surface is
-  // thinner than rounding, edges wind around it as often as lengths differ in magnitude, and would
-  // be unwound turn by turn.
+  // A face takes part in at most this many. Large meshes of needles take hundreds. Where a surface
+  // is thinner than rounding, edges wind around it as often as lengths differ in magnitude, and
+  // would be unwound turn by turn.
   static constexpr int most_flips = 10000;
 
   Eigen::MatrixXi m_T;

@@ -65,9 +65,9 @@ struct Mesh_diagnosis
   Mesh_finding duplicate_faces;
   /// edges of more than two faces; from vertex `first` to vertex `second`
   Mesh_finding non_manifold_edges;
-  /// edges along which their two faces, `first` and `second`, run alike
+  /// edges along which their two faces, `first` and `second`, run in the same direction
   Mesh_finding misoriented_edges;
-  /// vertices where parts of the surface touch in nothing but the vertex
+  /// vertices where parts of the surface touch only in that vertex
   Mesh_finding non_manifold_vertices;
   Mesh_finding isolated_vertices; ///< vertices that no face uses
   Mesh_finding massless_vertices; ///< vertices all of whose faces have zero area
@@ -84,13 +84,13 @@ struct Mesh_diagnosis
   Mesh_finding coincident_vertices;
   /// @}
 
-  /// of a mesh of triangles pairs of border vertices that lie together within 1e-5 of the box's
-  /// diagonal and 0.49 of every edge at them, and share no edge: each with the first such vertex
-  /// before it that is not itself the first of a pair. The surface is cut there, or its coordinates
-  /// were rounded.
+  /// pairs of border vertices of a triangle mesh that share no edge and are no further apart than
+  /// 1e-5 of the box's diagonal and 0.49 of every edge at them. Each is paired with the first such
+  /// vertex before it that is not itself the first of a pair. The surface is cut there, or its
+  /// coordinates were rounded.
   std::vector<std::pair<std::size_t, std::size_t>> cracks;
 
-  /// in the order of their first vertices; isolated vertices are none
+  /// in the order of their first vertices; isolated vertices are not components
   std::vector<Mesh_component> components;
 
   /// \brief whether the mesh can be simplified as it is.
@@ -99,15 +99,15 @@ struct Mesh_diagnosis
   /// \brief whether `extent` is not usable: another unit of length helps then, no repair.
   bool out_of_scale() const { return !internal::extent_is_usable(extent); }
 
-  /// \brief one clause for each kind of obstacle, without a full stop: how many, where first, what
-  /// helps. The most elementary comes first; what follows may be its consequence.
+  /// \brief returns one clause for each kind of obstacle, without a full stop: how many, where
+  /// first, what helps. The most elementary comes first; later ones may be its consequences.
   std::vector<std::string> obstacles() const;
 
-  /// \brief one clause for each thing that is unusual but handled, without a full stop.
+  /// \brief returns one clause for each thing that is unusual but handled, without a full stop.
   std::vector<std::string> remarks() const;
 
-  /// \brief what to expect of `K` eigenvectors on this mesh: one sentence for each reason for which
-  /// less is preserved than was asked for, or something else than was meant.
+  /// \brief returns one sentence for each reason why `K` eigenvectors on this mesh preserve less
+  /// than was asked for, or something other than was meant.
   std::vector<std::string> warnings(std::size_t K) const;
 };
 
@@ -396,8 +396,8 @@ private:
         add_smallest(m_result.coincident_vertices, {order[i].second, order[first].second});
   }
 
-  // The tree holds what a vertex reaches, of those that are not near an earlier one: where many lie
-  // together there is one of them.
+  // The tree holds the reach of each vertex that is not near an earlier one: of many vertices in
+  // one place it holds one.
   void find_cracks()
   {
     if(m_result.polygons.count != 0 ||
@@ -485,7 +485,7 @@ private:
     return sum.norm() / 2;
   }
 
-  // The smallest counts as the first where they do not come in their order.
+  // The smallest counts as the first, in whatever order they come.
   static void add_smallest(Mesh_finding& finding, const std::pair<std::size_t, std::size_t>& found)
   {
     if(finding.count++ == 0 || found < std::pair(finding.first, finding.second))

@@ -26,9 +26,10 @@ such sums are finite numbers without a meaning.
 of times and energies are multiples of the spectrum's own, so that results do not depend on the
 unit. To compare two meshes use *one* set of times or energies for both: take them from one and pass
 them to both.
-- `std::invalid_argument` is thrown for a source out of range, a time or energy that is not finite
-or negative where it must not be, and where a nonzero eigenvalue is needed, when all of them are
-zero, when `zeros` is not known, or when one that is not among them was computed as zero.
+- `std::invalid_argument` is thrown for a source out of range, and for a time or energy that is not
+finite, or negative where it must not be. Where a nonzero eigenvalue is needed, it is also thrown if
+all of them are zero, if `zeros` is not known, or if an eigenvalue after the first `zeros` was
+computed as zero.
 */
 
 namespace CGAL::Spectral_geometry {
@@ -37,12 +38,11 @@ namespace CGAL::Spectral_geometry {
 /// @{
 
 /*!
-is where distances are measured from: a vertex, several of them, or points anywhere on the surface.
+the places to measure distances from: a vertex, several of them, or points anywhere on the surface.
 
-A point is a row of an interpolation, of which `closest_point_interpolation()` makes one for each
-point: its eigenfunctions are \f$ W \phi_i \f$. On a simplified mesh take the closest points of the
-input's vertices, not the coarse vertices that the vertex map gives for them: those lie up to an
-edge away.
+A point is a row of an interpolation W, as `closest_point_interpolation()` makes it: the
+eigenfunctions there are \f$ W \phi_i \f$. On a simplified mesh take the points closest to the
+input's vertices: the coarse vertices of the vertex map lie up to an edge away.
 */
 class Distance_sources
 {
@@ -77,7 +77,7 @@ public:
     return m_are_points ? m_points.rows() : static_cast<Eigen::Index>(m_vertices.size());
   }
 
-  /// returns `functions`, which have a row for each vertex, at the sources. Throws
+  /// returns the values at the sources of `functions`, which have a row for each vertex. Throws
   /// `std::invalid_argument` for a vertex out of range, an interpolation of another mesh, and a row
   /// of it that does not sum to 1 within 1e-6.
   Eigen::MatrixXd values(const Eigen::Ref<const Eigen::MatrixXd>& functions) const
@@ -380,7 +380,7 @@ inline Eigen::MatrixXd wave_kernel_distance(const Eigenpairs& pairs,
   at_sources.vectors = sources.values(pairs.vectors);
   at_sources.zeros = pairs.zeros;
   const Eigen::MatrixXd signature = wave_kernel_signature(pairs, energies);
-  // A point has a sum of squares of what is interpolated, a vertex its own numbers, to the
+  // At a point eigenfunctions are interpolated, then squared; a vertex has its own numbers, to the
   // last bit.
   const Eigen::MatrixXd of_sources = sources.are_vertices()
                                          ? sources.values(signature)

@@ -28,9 +28,8 @@ namespace CGAL::Spectral_geometry {
 returns for each row of `queries` the index of the row of `points` that is nearest to it in the
 Euclidean norm.
 
-Exact, the first of those that are equally near. Fast where the leading columns tell most points
-apart, as those of embeddings by eigenvectors do, and where queries come in an order in which one is
-near to the next.
+The search is exact and returns the first of equally near points. It is fast if the leading columns
+tell most points apart, as in embeddings by eigenvectors, and if each query is near the next.
 
 @param points n x d, n and d positive, finite
 @param queries m x d, finite
@@ -79,10 +78,10 @@ target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vec
                      const Eigen::MatrixXd& target_vectors, const Run_control& control = {});
 
 /*!
-returns the map from the vertices of Y to *points* of X of a functional map \f$ C_{X,Y} \f$: for
-each vertex y the point of the faces of X, embedded by \f$ x \mapsto C \Phi_X(x)^\top \f$, that is
-nearest to \f$ \Phi_Y(y)^\top \f$ (Ezuz and Ben-Chen 2017), looked for in the faces within one edge
-of the nearest vertex.
+returns the map from vertices of Y to *points* of X of a functional map \f$ C_{X,Y} \f$. Each vertex
+y goes to the point of the faces of X, embedded by \f$ x \mapsto C \Phi_X(x)^\top \f$, that is
+nearest to \f$ \Phi_Y(y)^\top \f$ (Ezuz and Ben-Chen 2017). Only faces within one edge of the
+nearest vertex are searched.
 
 A vertex map between coarse meshes is off by half an edge; this one is as exact as the functional
 map, and between coarse meshes the maps made of it keep more modes.

@@ -22,15 +22,14 @@ namespace CGAL::Surface_mesh_simplification {
 struct Spectral_edge_collapse_options : Spectral_options
 {
   /// `Spectral_options::best()` for the collapses, then relocation with the signals at the closest
-  /// points. It takes a third of the run, and with the P that it brings |C|_L is less than half;
-  /// that P no longer follows the vertex map, and levels that are replayed from the log end before
-  /// it.
+  /// points. Relocation takes a third of the run; with its own P |C|_L is less than half. That P
+  /// does not follow the vertex map, and levels replayed from the log are not relocated.
   static Spectral_edge_collapse_options best() { return Spectral_edge_collapse_options(); }
 
-  /// `best()` for large inputs: collapses by quadrics reduce a mesh first to 30 times the target,
-  /// but not below 300,000 vertices, and the eigenpairs are those of that mesh. |C|_L of a smooth
-  /// shape of a million vertices was no larger, of a rough terrain of 1.44 million 1.25 times as
-  /// large. See `pre_simplify` for what cannot be given with it.
+  /// `best()` for large inputs: quadrics first reduce the mesh to 30 times the target, but not
+  /// below 300,000 vertices. The eigenpairs are those of the reduced mesh. |C|_L was no larger for
+  /// a smooth shape of a million vertices, and 1.25 times as large for a rough terrain of 1.44
+  /// million. See `pre_simplify` for what cannot be given with it.
   static Spectral_edge_collapse_options best(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;
@@ -38,11 +37,11 @@ struct Spectral_edge_collapse_options : Spectral_options
     return options;
   }
 
-  /// `best()` without an eigensolver. Collapses by quadrics reduce the mesh first to 15 times the
-  /// target, but not below 10,000 vertices, and signals of filtered noise are made there.
-  /// Relocation sees 64 of the signals and takes 28 steps at most. With 30 times and 40 steps a
-  /// run from 50,000 vertices took 1.5 times as long and |C|_L was 0.93 times as large in the mean,
-  /// on human figures 0.8 times. Where K is at most 32, or N below 2 K, eigenpairs judge the
+  /// `best()` without an eigensolver. Quadrics first reduce the mesh to 15 times the target, but
+  /// not below 10,000 vertices; its signals are filtered noise on the reduced mesh. Relocation sees
+  /// 64 signals and takes at most 28 steps. With 30 times the target and 40 steps, a run from
+  /// 50,000 vertices took 1.5 times as long, and |C|_L was 0.93 times as large on average, 0.8
+  /// times on human figures. If K is at most 32, or N is below 2 K, eigenpairs judge the
   /// relocation: noise alone would let |C|_L rise there. E and the relative error are estimates.
   /// See `pre_simplify` for what cannot be given with it.
   static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
@@ -67,37 +66,39 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// Stops before a collapse that would raise `relative_error`, sqrt(E / sum_k lambda_k^2), above
   /// this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound.
-  /// The run ends at it or at the number of vertices, whichever comes first: pass 3 K as that
-  /// number. It is a bound of the collapses: where relocation raises the error above it, a warning
-  /// says so. With it `largest_loss` is infinite.
+  /// The run ends at this bound or at the number of vertices, whichever comes first: pass 3 K as
+  /// that number. The bound holds for the collapses: if relocation raises the error above it, a
+  /// warning says so. With a bound `largest_loss` is infinite, and all signals are seen, not
+  /// mixtures.
   double maximum_error = std::numeric_limits<double>::infinity();
 
-  /// First reduces a mesh of more vertices to this number with the quadrics of `shape` alone (M.
-  /// Garland and P. Heckbert, *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997),
-  /// and goes on with the spectral cost; at least 30 times the target is advised. Takes
-  /// three to nine microseconds for each vertex, at least twice as much where faces would go
-  /// through others. P spans both stages. Kept vertices and the ends of constrained edges stay.
-  /// Signals, eigenpairs, a filter and a visitor are refused where this stage takes part. 0: never.
+  /// A mesh of more vertices is first reduced to this number by the quadrics of `shape` alone (M.
+  /// Garland and P. Heckbert, *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997);
+  /// then the spectral cost takes over. `best(N)` and `fast()` take 30 and 15 times the target.
+  /// This stage takes three to nine microseconds per vertex, at least twice as long where faces
+  /// would go through others. P spans both stages. Kept vertices and the ends of constrained edges
+  /// stay. Signals, eigenpairs, a filter and a visitor are refused if this stage takes part. 0:
+  /// never.
   std::size_t pre_simplify = 0;
 
   /// While the mesh has more than this many times the target's vertices, edges are collapsed by the
-  /// quadrics of `shape` alone, as with `pre_simplify`, but F, Z and P follow: eigenpairs,
-  /// relocation and the error are about the input. The last few collapses decide the quality: with
-  /// 7 and with 15 the norms were the same in the mean of 106 runs, and a mesh of 80 N took half
-  /// the time. From 1; infinite: never. It is passed over, for every collapse to be that of the
-  /// metric, where it could not be what was asked for: without `shape`, with another `placement`
-  /// than `free`, with `coefficients`, `binary`, `preserve_border`, the Dirichlet condition or
-  /// `maximum_error`, with a filter or a visitor. Levels of `Spectral_edge_collapse_result::log`
-  /// above so many vertices are those of quadrics.
+  /// quadrics of `shape` alone, as with `pre_simplify`. But F, Z and P follow, so eigenpairs,
+  /// relocation and the error refer to the input. Only the last collapses determine the quality:
+  /// with 7 and with 15 the norms were the same in the mean of 106 runs, and a mesh of 80 N took
+  /// half the time. From 1; infinite: never. It is ignored, and the metric decides every collapse,
+  /// without `shape`, with a `placement` other than `free`, with `coefficients`, `binary`,
+  /// `preserve_border`, the Dirichlet condition or `maximum_error`, and with a filter or a visitor.
+  /// Levels of `Spectral_edge_collapse_result::log` above this number of vertices come from
+  /// quadrics.
   double quadrics_above = 7;
 
-  /// Moves the vertices that are left so that the spectrum is kept still better, see
+  /// Moves the remaining vertices to preserve the spectrum better, see
   /// `Spectral_geometry::relocate_positions()`. Kept vertices and both ends of constrained edges
-  /// stay. Made for the averaged mass. Not with `binary` where its signals are `sampled`: that
-  /// takes P anew.
+  /// stay. Made for the averaged mass. Not with `binary` if `relocation.signals` is `sampled`,
+  /// which makes a new P.
   bool relocate = true;
 
-  /// How they are moved; its progress callback is replaced by that of the run.
+  /// How vertices are moved; the progress callback of the run replaces its own.
   Spectral_geometry::Relocation_options relocation;
 };
 

@@ -46,37 +46,37 @@ struct Spectral_edge_collapse_result
   double seconds_relocation = 0; ///< wall seconds of `Spectral_edge_collapse_options::relocate`
   double seconds_total = 0;      ///< the whole call
 
-  /// how many steered the collapses, all at once or in mixtures: those of positive weight
+  /// number of signals (of positive weight) that steered the collapses, directly or in mixtures
   std::size_t signals = 0;
   /// Eq. 2 of all signals but constants, with their weights, for the input scaled to unit area
   double E = 0;
   double relative_error = 0; ///< see `Spectral_policies::relative_error()`
 
-  /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the
-  /// one below is the one to use
+  /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is empty: use the
+  /// one below
   Spectral_geometry::Relocation_result relocation;
 
   /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in
-  /// that of the input. `Surface_mesh::collect_garbage()` changes that order: write or copy the
-  /// mesh without it, which keeps the order, or use `Spectral_policies`, whose `restriction()`
-  /// follows the mesh as it is.
+  /// the order of the input. `Surface_mesh::collect_garbage()` changes the order of rows: write or
+  /// copy the mesh without calling it, or use `Spectral_policies`, whose `restriction()` follows
+  /// the mesh as it is.
   Eigen::SparseMatrix<double> restriction;
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
-  /// those of the operator of the coarse mesh, `Spectral_options::coefficients` merged by the
-  /// collapses: means of what went into a vertex, wherever relocation moves it, and the P that this
-  /// brings reads functions off. Rows as in P; empty without
+  /// coefficients of the coarse operator: `Spectral_options::coefficients` merged by the collapses,
+  /// means of what went into a vertex. Relocation and its P do not change them. Rows as in P; empty
+  /// if the input has none
   Spectral_geometry::Operator_coefficients coefficients;
   /// every level of detail between the input and the result: P from it alone, meshes by
   /// `Collapse_replay`
   Collapse_log log;
-  /// how many of the collapses were those of quadrics alone, of
-  /// `Spectral_edge_collapse_options::pre_simplify` and `quadrics_above`
+  /// number of collapses by quadrics alone, see `Spectral_edge_collapse_options::pre_simplify` and
+  /// `quadrics_above`
   std::size_t quadric_collapses = 0;
   /// number of vertices after `Spectral_edge_collapse_options::pre_simplify`; that of the input
   /// without
   std::size_t pre_simplified_vertices = 0;
-  /// of the input (of the pre-simplified mesh, if it was) at its own scale, to simplify it again;
-  /// null with signals of the user's or of filtered noise
+  /// eigenpairs of the input (or of the pre-simplified mesh) at its own scale, to simplify it
+  /// again; null with signals of your own or filtered noise
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
 
   /// the reason in words
@@ -93,7 +93,7 @@ struct Spectral_edge_collapse_result
 
 namespace internal {
 
-/// `rest` of the sentence that says so.
+/// Records that the run was cancelled; `rest` ends the sentence that says so.
 inline void set_cancelled(Spectral_edge_collapse_result& result, const std::string& rest = "")
 {
   result.stop_reason = Spectral_edge_collapse_result::Stop_reason::cancelled;

@@ -10,11 +10,11 @@
 \brief for the one source file that compiles what `CGAL_SPECTRAL_GEOMETRY_COMPILED` leaves out of
 all others.
 
-Without that macro the package is header-only and nobody needs this file. With it defined in every
-source file of a program, all that depends on no mesh type (operators, eigensolvers, the collapse
-loop's evaluation of costs, relocation, maps) is only declared, and exactly one source file includes
-this header, which defines it. The CMake target `Spectral_mesh_simplification::compiled` is that,
-ready made.
+Without that macro the package is header-only and nobody needs this file. If every source file of a
+program defines it, everything that does not depend on a mesh type (operators, eigensolvers, the
+collapse loop's evaluation of costs, relocation, maps) is only declared. Exactly one source file
+must then include this header, which defines it. The CMake target
+`Spectral_mesh_simplification::compiled` does both for you.
 */
 
 #include <CGAL/Spectral_geometry/compile.h>

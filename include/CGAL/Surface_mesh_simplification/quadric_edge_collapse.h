@@ -38,8 +38,8 @@ inline void check_target(const char* const caller, const std::size_t target, con
           " vertices, but the mesh has ", n, "; use a number from 1 to ", n, ".");
 }
 
-/// The corners of all faces in the order of `faces(mesh)`, and those on the other side of their
-/// edges, with what `mesh_matrices()` gives for the mesh.
+/// Returns the corners of all faces in the order of `faces(mesh)`, each with the corner across its
+/// edge. `matrices`: those of `mesh_matrices()`.
 template <class TriangleMesh>
 Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mesh_matrices matrices)
 {
@@ -69,11 +69,10 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mes
 }
 
 /*!
- * Makes of the mesh that `triangle_arrays()` read what `Collapse_replay` would, without a look at
- * each collapse: the vertices, faces and edges that are left are those that
+ * Turns the mesh that `triangle_arrays()` read into what `Collapse_replay` would make, without
+ * replaying each collapse. The remaining vertices, faces and edges are those that
  * `Euler::collapse_edge()` leaves, which keeps the target of the edge's halfedge. Faces and
- * vertices keep the halfedge that they name, unless it is gone. Returns the slots of
- * `vertices(mesh)`.
+ * vertices keep their halfedge unless it is gone. Returns the slots of `vertices(mesh)`.
  *
  *          t
  *        /   \         pq is gone, and with it the face and pt:
@@ -170,9 +169,9 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
   return slots;
 }
 
-/// `quadric_collapses()` on arrays as the options have it, then the mesh that they leave. `kept`:
-/// by positions in `vertices(mesh)`, or empty. Until the mesh changes it can be cancelled, and
-/// nothing has happened then. Returns the log and the slots of the vertices that are left.
+/// Runs `quadric_collapses()` on arrays with these options, then changes the mesh accordingly.
+/// `kept`: by positions in `vertices(mesh)`, or empty. It can be cancelled until the mesh changes.
+/// Returns the log and the slots of the vertices that are left.
 template <class TriangleMesh, class NamedParameters>
 std::pair<Collapse_log, std::vector<Eigen::Index>>
 collapse_by_quadrics(TriangleMesh& mesh, const std::size_t target, const std::vector<char>& kept,
@@ -181,8 +180,8 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t target, const std::ve
   using Point = typename boost::property_traits<
       typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
   Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
-  // What is wrong and stays so is refused before anything changes. Needles and faces without area
-  // need not stay.
+  // Defects that would remain are refused before anything changes. Needles and faces without area
+  // need not remain.
   check_extent(matrices.V);
   check_fans(mesh, matrices.T);
   check_kept_vertices_apart(kept, matrices.V, matrices.T);
@@ -212,7 +211,7 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t target, const std::ve
   }
 }
 
-/// P, vertex map and log of a run. `slots`: those of the log that `vertices(mesh)` are, in that
+/// Sets P, vertex map and log of a run. `slots`: those of `vertices(mesh)` in the log, in that
 /// order.
 template <class Result>
 void set_restriction(Result& result, Collapse_log log, const std::vector<Eigen::Index>& slots)
@@ -238,18 +237,18 @@ struct Quadric_edge_collapse_result
 };
 
 /*!
- * Simplifies a huge mesh by quadrics alone (M. Garland and P. Heckbert, *Surface Simplification
- * Using Quadric Error Metrics*, SIGGRAPH 1997), those of `Spectral_options::shape`: the first stage
- * of `spectral_edge_collapse()`, see `Spectral_edge_collapse_options::pre_simplify`, on its own. It
- * works on arrays, takes three to nine microseconds for each vertex, and computes no eigenvectors.
- * No face turns by more than 78 degrees in a collapse, no needle appears where there was none, and
- * in the end no face goes through another, unless it did before; where that has to be looked after
- * it takes at least twice as long.
+ * Simplifies a huge mesh by the quadrics of `Spectral_options::shape` alone (M. Garland and P.
+ * Heckbert, *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997). This is the first
+ * stage of `spectral_edge_collapse()` on its own, see
+ * `Spectral_edge_collapse_options::pre_simplify`. It works on arrays, takes three to nine
+ * microseconds per vertex, and computes no eigenvectors. No face turns by more than 78 degrees in a
+ * collapse, and no new needle appears. In the end no face goes through another, unless it did
+ * before; where this must be prevented, the run takes at least twice as long.
  *
  * @param mesh a triangle mesh without isolated vertices; changed in place, garbage is not collected
- * @param number_of_vertices the target, from 1 to the number of vertices. Where no edge is left
- * that may be collapsed, there are more
- * @param progress called with the fraction that is done; returns false to cancel, until the mesh
+ * @param number_of_vertices the target, from 1 to the number of vertices. The result has more if no
+ * further edge may be collapsed
+ * @param progress is called with the fraction done; it may return false to cancel until the mesh
  * changes. May be empty
  * @param np an optional sequence of named parameters among those below; the others of
  * `edge_collapse()` do not compile

@@ -25,8 +25,8 @@ namespace internal {
 
 using Stop_reason = Spectral_edge_collapse_result::Stop_reason;
 
-/// Keeps the state in step in one of several runs of the loop. The user's visitor sees them as one:
-/// it is told elsewhere that they begin and end.
+/// Keeps the state in step during one of several runs of the loop. The user's visitor sees all runs
+/// as one: `run_spectral_stage()` tells it that they begin and end.
 template <class State, class UserVisitor>
 struct Visitor_of_runs : Spectral_visitor<State, UserVisitor>
 {
@@ -46,8 +46,8 @@ struct Visitor_of_runs : Spectral_visitor<State, UserVisitor>
   }
 };
 
-/// Runs the loop with the constraint map and filter that the user gave, if any. Returns what has
-/// ended it unless that was the target.
+/// Runs the loop with the user's constraint map and filter, if any. Returns what ended it, unless
+/// that was the target.
 template <class TriangleMesh, class Policies, class Visitor, class NamedParameters>
 Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies,
                                        const std::size_t target, const double maximum_error,
@@ -85,16 +85,16 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
     return run(policies.get_placement(), common);
 }
 
-/// The policies of the spectral stage. What they refuse after the first stage is the mesh that it
-/// has left: an input that is refused as `std::invalid_argument` has not been changed.
+/// Makes the policies of the spectral stage. Throws `std::runtime_error` if they refuse what the
+/// first stage left: `std::invalid_argument` means that the input has not been changed.
 template <class Policies, class TriangleMesh, class NamedParameters>
 Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options,
                            const NamedParameters& np, const Pre_simplification& first)
 {
   if(!first.done)
     return Policies(mesh, options, np);
-  // The vertices to keep may go on under other handles now: they are known by index, no longer by
-  // the user's map.
+  // Vertices to keep may have other handles now: they are known by index, no longer by the user's
+  // map.
   using parameters::choose_parameter;
   using parameters::get_parameter;
   const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
@@ -112,8 +112,8 @@ Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options,
   }
 }
 
-/// The collapses of `Spectral_edge_collapse_options::quadrics_above`, which the state of the
-/// policies follows.
+/// Makes the collapses of `Spectral_edge_collapse_options::quadrics_above`; the state of the
+/// policies follows them.
 template <class TriangleMesh, class Policies, class NamedParameters>
 void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies,
                                 const std::size_t target,
@@ -125,7 +125,7 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies,
   if(is_given<NamedParameters, internal_np::filter_t, internal_np::visitor_t> ||
      !quadrics_come_first(options))
     return;
-  // One collapse at least is left to the loop: a run that is cancelled before it ends above the
+  // At least one collapse is left to the loop, so that a run cancelled before it ends above the
   // target.
   const double end = (std::max)(std::floor(options.quadrics_above * double(target)), target + 1.);
   if(!(double(n) > end))
@@ -181,8 +181,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   Real_timer timer;
   timer.start();
   Stop_reason end = Stop_reason::queue_exhausted;
-  // An edge that was given up because of another sheet is not asked for again when that sheet
-  // changes: once more, while that removes a hundredth of the vertices.
+  // CGAL does not ask again for an edge that was refused because of another sheet when that sheet
+  // changes. So the loop runs again while that removes a hundredth of the vertices.
   bool again = true;
   auto given_visitor = parameters::choose_parameter(
       parameters::get_parameter(np, internal_np::visitor), Dummy_visitor());
@@ -234,8 +234,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   Spectral_post_process(mesh, policies, given, np, result).run(first);
 }
 
-/// The rest of a run whose first stage has been done. Once the mesh has changed, to cancel is to
-/// return what was done.
+/// The rest of a run after its first stage. The mesh has changed, so a cancelled run returns what
+/// was done.
 template <class TriangleMesh, class NamedParameters>
 void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
                            Spectral_edge_collapse_options options, const NamedParameters& np,
@@ -263,14 +263,14 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
 /// @{
 
 /*!
- * Simplifies a mesh to a number of vertices while its Laplace-Beltrami spectrum stays what it was:
- * the one-call form of `Spectral_policies` with `edge_collapse()` and `Spectral_stop_predicate`.
+ * Simplifies a mesh to a number of vertices and preserves its Laplace-Beltrami spectrum: the
+ * one-call form of `Spectral_policies` with `edge_collapse()` and `Spectral_stop_predicate`.
  *
  * @param mesh a triangle mesh without isolated vertices; changed in place, garbage is not collected
  * @param number_of_vertices the target N, at most the number of vertices of the mesh. At least 3 K
- *        is advised (section 4.3 of the paper); a smaller one is warned of in the result. One that
+ *        is advised (section 4.3 of the paper); the result warns of a smaller target. A target that
  *        small components or handles would use up, so that nothing of the shape is left, is refused
- *        with the number to ask for. With an error bound neither
+ *        with the number to ask for. With an error bound neither applies
  * @param options see `Spectral_edge_collapse_options`
  * @param np an optional sequence of named parameters among those below, which are those of
  * `edge_collapse()` and one more
@@ -309,10 +309,10 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
- * Quadrics collapse arrays and know neither filter nor visitor: with one of them
- * `Spectral_edge_collapse_options::pre_simplify` is refused, and `quadrics_above` passed over. The
- * other named parameters of `edge_collapse()` do not compile: cost, placement and order are those
- * of the metric, and indices are its own.
+ * Collapses by quadrics work on arrays and call neither filter nor visitor: if one is given,
+ * `Spectral_edge_collapse_options::pre_simplify` is refused and `quadrics_above` is ignored. The
+ * other named parameters of `edge_collapse()` do not compile: the metric decides on cost, placement
+ * and order, and has its own indices.
  *
  * \pre `CGAL::is_triangle_mesh(mesh)`
  *
@@ -321,9 +321,9 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  * @throws std::invalid_argument for a mesh or an option that cannot be used, before anything is
  * changed
  * @throws std::runtime_error when the eigenpairs do not converge, before anything is changed. With
- *         `Spectral_edge_collapse_options::pre_simplify` the first stage has been done then; the
- *         same is thrown where it has left a mesh that the spectral cost refuses (a needle, a
- *         vertex without area)
+ *         `Spectral_edge_collapse_options::pre_simplify` it is thrown after the first stage, and
+ *         also if that stage left a mesh that the spectral cost refuses (a needle, a vertex without
+ *         area)
  * @throws Spectral_geometry::Cancelled when the run is cancelled before the mesh changes, while
  *         collapses by quadrics, eigenpairs or first costs are computed; later a cancelled run
  *         returns what was done

@@ -26,8 +26,8 @@ namespace CGAL::Surface_mesh_simplification {
 
 namespace internal {
 
-/// Whether eigenvalues of the fine mesh are goals of a relocation: with less than half of the
-/// consistent mass those of linear elements are lower, and only a bent shape would have the same.
+/// Whether a relocation can reach the eigenvalues of the fine mesh. With less than half of the
+/// consistent mass linear elements have lower ones, and only a bent shape would have the same.
 inline bool has_reachable_eigenvalues(const Spectral_geometry::Local_operator& op)
 {
   return op.theta >= 0.5;
@@ -41,7 +41,7 @@ inline double area(const Spectral_geometry::Mesh_matrices& mesh)
   return result;
 }
 
-/// What a relocation by eigenpairs sees: what that of a run with default options does.
+/// Returns what a relocation by eigenpairs sees, as in a run with default options.
 inline Run_signals::Signals mixtures_of_eigenpairs(const Spectral_geometry::Eigenpairs& pairs)
 {
   const Eigen::VectorXd& values = pairs.values;
@@ -53,8 +53,8 @@ inline Run_signals::Signals mixtures_of_eigenpairs(const Spectral_geometry::Eige
   return {pairs.vectors * R, pairs.vectors * (values.asDiagonal() * R)};
 }
 
-/// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: vertices that
-/// stay beside those of the named parameters, or empty.
+/// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: further vertices
+/// that stay, in addition to those of the named parameters, or empty.
 template <class TriangleMesh, class NamedParameters>
 Spectral_geometry::Relocation_result
 relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
@@ -87,7 +87,7 @@ relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
   return result;
 }
 
-/// What the collapses have left, in P, in the rows that are flagged; the rest from `own`.
+/// Replaces the flagged rows of `own` by those of P, which the collapses left.
 template <class Flags>
 void keep_rows(Eigen::SparseMatrix<double>& own, const Eigen::SparseMatrix<double>& P,
                const Flags& kept)
@@ -98,9 +98,9 @@ void keep_rows(Eigen::SparseMatrix<double>& own, const Eigen::SparseMatrix<doubl
   own += carried;
 }
 
-/// Eigenpairs that judge a relocation by filtered noise, which goes up to fewer modes than |C|_L is
-/// made of and is off by its variance where there are few. In 386 runs of *fast*, 4 to 350 vertices
-/// for 5 to 100 eigenvectors, |C|_L rose in 94 without them, to 1.5 times at most. Null: many
+/// Returns eigenpairs that judge a relocation by filtered noise. Noise covers fewer modes than
+/// |C|_L does, and its variance matters where there are few. Without them |C|_L rose in 94 of 386
+/// runs of *fast* (4 to 350 vertices, 5 to 100 eigenvectors), to 1.5 times at most. Null for many
 /// vertices and many eigenvectors, where it did not rise.
 template <class State>
 std::shared_ptr<const Spectral_geometry::Eigenpairs>
@@ -123,8 +123,8 @@ judging_eigenpairs(const State& state, const Spectral_options& options, const Ei
       op, (std::min)({K, vertices, op.L.rows() - op.vanishing}), solver));
 }
 
-/// Relocation after the collapses of a run, whose P leads to `mesh`: signals, mass, operator and
-/// what must stay are those of the run.
+/// Relocates after the collapses of a run, whose P leads to `mesh`. Signals, mass, operator and
+/// fixed vertices are those of the run.
 template <class TriangleMesh, class State, class NamedParameters>
 Spectral_geometry::Relocation_result
 relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_options& options,
@@ -153,10 +153,10 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
       filtered ? filtered->Z : mixtures.second, op, relocation, state.fixed_vertices(), np);
   if(!result.resampled)
     return result;
-  // Where the input has several points in one place, the closest may be another's.
+  // If several input vertices share a place, the closest point may belong to another one.
   if(const std::vector<bool> kept = state.kept_vertices(); !kept.empty())
     keep_rows(result.restriction, P, kept);
-  // A vertex of the border whose closest point is an inner one goes on having 0.
+  // A border vertex keeps its values 0, even if its closest point is an inner one.
   if(options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
     keep_rows(result.restriction, P,
               Spectral_geometry::internal::border_vertices(
@@ -168,8 +168,8 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
 
 /*!
  * Moves the vertices of a coarse mesh so that its Laplace-Beltrami spectrum agrees better with that
- * of a fine mesh: the mesh form of `Spectral_geometry::relocate_positions()`, which says what is
- * minimised and what is guarded.
+ * of a fine mesh: the mesh form of `Spectral_geometry::relocate_positions()`, which describes the
+ * objective and the guards.
  *
  * The coarse mesh may come from anywhere. For one that `spectral_edge_collapse()` made, pass the
  * restriction of its result; for a remeshed one `Spectral_geometry::closest_point_restriction()`.
@@ -178,12 +178,13 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  * @param P     coarse x fine, rows in the order of `vertices(mesh)`
  * @param fine  the fine mesh, taken with `Spectral_geometry::mesh_matrices()` before it was
  * simplified
- * @param pairs eigenpairs of the fine mesh, of the same operator and mass, at its own scale; tight
- *        ones, since Z is taken as Phi Lambda. Relocation sees at most 64 mixtures of them, in
- * which low ones weigh more, as after a run with default options. Their eigenvalues are those of
- * `options` where it has none, `op` no coefficients and at least half of the consistent mass
+ * @param pairs eigenpairs of the fine mesh, of the same operator and mass, at its own scale; of
+ *        tight tolerance, since Z is taken as Phi Lambda. Relocation sees at most 64 mixtures of
+ *        them, in which low ones weigh more, as after a run with default options. If `options` has
+ *        no eigenvalues, those of the pairs are the goals, unless `op` has coefficients or less
+ *        than half of the consistent mass
  * @param op    a mass, or an operator with coefficients for the vertices of `mesh`. Made for the
- * mass `averaged`: with any other the shape is bent to cancel the error of the elements
+ * mass `averaged`: with any other the shape bends to cancel the error of the elements
  * @param options what to minimise, guards, when to stop
  * @param np    an optional sequence of named parameters among those below
  *
@@ -210,8 +211,7 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  * @return what was done, and the restriction to use from now on
  *
  * @throws std::invalid_argument for matrices that do not belong together, or options out of range
- * @throws Spectral_geometry::Cancelled when it is cancelled; the mesh is then
- * as it was
+ * @throws Spectral_geometry::Cancelled when it is cancelled; the mesh is then as it was
  */
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 Spectral_geometry::Relocation_result
@@ -238,9 +238,9 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
 }
 
 /*!
- * The relocation that ends `spectral_edge_collapse()`, after `edge_collapse()` with the policies:
- * signals of any kind, mass, operator, the fine mesh and P are theirs. Kept vertices stay, and so
- * do both ends of constrained edges, where the policies were made with the map or it is given here.
+ * Relocates after `edge_collapse()` with the policies, as `spectral_edge_collapse()` does at its
+ * end. Signals of any kind, mass, operator, fine mesh and P are those of the policies. Kept
+ * vertices stay, and so do both ends of constrained edges if the policies or this call got the map.
  *
  * \code
  * SMS::Spectral_policies spectral(mesh);
@@ -248,14 +248,14 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
  * Eigen::SparseMatrix<double> P = SMS::spectral_relocation(mesh, spectral).restriction;
  * \endcode
  *
- * `Spectral_policies::restriction()` goes on to be the P of the collapses. A filter of CGAL's, a
- * distance to the input for instance, is not asked.
+ * `Spectral_policies::restriction()` remains the P of the collapses. CGAL's filters, for instance a
+ * bound on the distance to the input, are not called.
  *
  * @param mesh     that of the policies
  * @param policies after the collapses
- * @param options  as above; `modes` is replaced. An empty `progress` or `cancel` is that of the
- * policies
- * @param np an optional sequence of named parameters among those below, of `mesh` as it is
+ * @param options  as above; `modes` is replaced. If `progress` or `cancel` is empty, that of the
+ * policies is used
+ * @param np an optional sequence of named parameters among those below, for `mesh` as it is now
  *
  * \cgalNamedParamsBegin
  *   \cgalParamNBegin{vertex_is_constrained_map}
@@ -270,9 +270,9 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
- * @throws std::invalid_argument for another mesh, for `Spectral_options::binary` with signals that
- * are `sampled`, and where a wrapper of the placement has chosen points but nobody says which edges
- * are constrained
+ * @throws std::invalid_argument for another mesh, for `Spectral_options::binary` with `sampled`
+ * signals, and if a wrapper of the placement has chosen points but no map of constrained edges was
+ * given
  * @throws Spectral_geometry::Cancelled as above
  */
 template <class TriangleMesh, class GeomTraits, class VertexPointMap,

@@ -25,7 +25,7 @@ template <class NamedParameters, class... Parameter>
 constexpr bool is_given =
     !(parameters::is_default_parameter<NamedParameters, Parameter>::value && ...);
 
-/// The merge that was announced, given the slot that has gone on. The loop keeps v1 in every
+/// Returns the merge that was announced, given the slot that remains. The loop keeps v1 in every
 /// version tried; should it keep v0, the weights change places.
 inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept,
                                                          Spectral_geometry::Merge_forest::Merge m)
@@ -44,8 +44,8 @@ inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept
 
 /*!
  * The record of a simplification, from which every level of detail between its start and its end
- * can be had again: the merges in order, those of edges without length before the loop included,
- * and where each left its vertex. A merge and a point: 48 bytes for each collapse.
+ * can be rebuilt. It holds the merges in order, with those of edges without length before the loop,
+ * and the point where each put its vertex: 48 bytes per collapse.
  *
  * P at any level comes from the log alone, the mesh from `Collapse_replay` with a copy of the
  * input:
@@ -60,13 +60,13 @@ inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept
  * }
  * \endcode
  *
- * (Without `Spectral_edge_collapse_options::quadrics_above`, which depends on the target, and from
- * 3 K vertices on: below, the weights do as well, see `weights_for_target()`; set
- * `Spectral_options::weights` to 1 for all.)
+ * (This holds without `Spectral_edge_collapse_options::quadrics_above`, which depends on the
+ * target, and from 3 K vertices on. Below, the weights depend on it too, see
+ * `weights_for_target()`; set all `Spectral_options::weights` to 1.)
  *
- * Vertices are known by their *slot*, the position in `vertices(mesh)` of the input. What is done
- * to the mesh after the collapses, relocation of its vertices for instance, is not in the log.
- * Neither are vertices that were moved between two runs.
+ * Vertices are known by their *slot*, the position in `vertices(mesh)` of the input. Changes of the
+ * mesh after the collapses, such as relocation, are not in the log. Neither are vertices that were
+ * moved between two runs.
  *
  * Made by `Spectral_policies::log()`, `Restriction_visitor::log()`, `spectral_edge_collapse()` and
  * `quadric_edge_collapse()`.
@@ -79,7 +79,7 @@ public:
   /// The log of an empty mesh.
   Collapse_log() = default;
 
-  /// Nothing has happened to a mesh of n vertices. Throws `std::invalid_argument` if n is negative.
+  /// The log of n vertices without merges. Throws `std::invalid_argument` if n is negative.
   explicit Collapse_log(const Index n)
     : m_forest(n)
   {}
@@ -95,15 +95,15 @@ public:
                       " merges; give one for each.");
   }
 
-  /// Makes room for so many merges in all.
+  /// Reserves memory for this many merges in all.
   void reserve(const std::size_t number_of_merges)
   {
     m_forest.reserve(Index(number_of_merges));
     m_points.reserve(number_of_merges);
   }
 
-  /// `removed` goes into `kept`, which then lies at `point`: F_kept = (1 - weight) F_kept + weight
-  /// F_removed. What `Merge_forest::merge()` throws.
+  /// Adds the merge of `removed` into `kept`, which then lies at `point`: F_kept = (1 - weight)
+  /// F_kept + weight F_removed. Throws as `Merge_forest::merge()` does.
   void merge(const Index removed, const Index kept, const double weight,
              const Eigen::Vector3d& point)
   {
@@ -117,8 +117,7 @@ public:
   }
 
   /// Appends the log of a second simplification that started where this one ended: `slots[i]` is
-  /// the slot of this one that the second calls i. Throws `std::invalid_argument` if they do not
-  /// fit.
+  /// the slot here that the second log calls i. Throws `std::invalid_argument` if they do not fit.
   void append(const Collapse_log& second, const std::vector<Index>& slots)
   {
     internal::require(Index(slots.size()) == second.m_forest.number_of_slots() &&
@@ -137,7 +136,7 @@ public:
   /// The merges, from which P at any level follows.
   const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
 
-  /// For each merge the point that its vertex was put on.
+  /// Returns, for each merge, the point where it put its vertex.
   const std::vector<Eigen::Vector3d>& points() const { return m_points; }
 
   /// Number of vertices of the input.
@@ -147,8 +146,8 @@ public:
   std::size_t number_of_vertices_left() const { return number_of_vertices() - m_points.size(); }
 
   /*!
-   * P of the level of N vertices, N x number_of_vertices(): rows in ascending order of slots, which
-   * is the order of `vertices()` of the replayed mesh before its garbage is collected.
+   * Returns P of the level of N vertices, N x number_of_vertices(): rows in ascending order of
+   * slots, which is the order of `vertices()` of the replayed mesh before its garbage is collected.
    *
    * Throws `std::invalid_argument` unless N is from number_of_vertices_left() to
    * number_of_vertices().
@@ -159,15 +158,15 @@ public:
     return m_forest.restriction(m_forest.kept_slots(merges), merges);
   }
 
-  /// For each vertex of the input the row of restriction(N) that it has gone to. Throws as
-  /// restriction() does.
+  /// Returns, for each vertex of the input, its row of restriction(N). Throws as restriction()
+  /// does.
   std::vector<std::size_t> vertex_map(const std::size_t N) const
   {
     const Index merges = number_of_merges(N);
     return m_forest.vertex_map(m_forest.kept_slots(merges), merges);
   }
 
-  /// How many merges lead to the level of N vertices. Throws as restriction() does.
+  /// Returns how many merges lead to the level of N vertices. Throws as restriction() does.
   Index number_of_merges(const std::size_t N) const
   {
     internal::require(N >= number_of_vertices_left() && N <= number_of_vertices(),
@@ -187,17 +186,17 @@ private:
  * coarse, without computing a single cost.
  *
  * Each merge is done by `Euler::collapse_edge()` on the edge that the run collapsed. On a copy
- * (`Mesh copy = mesh;` before the run) the mesh of N vertices is therefore the very one that a run
- * of the same options stopped at N leaves (those that depend on the target, see `Collapse_log`, set
- * alike): the same connectivity and coordinates, and the same order of vertices, faces and edges,
- * before garbage is collected. Faces and vertices may name another of their halfedges. On the same
- * mesh rebuilt in another way (read from a file again, in another type) connectivity and
- * coordinates are the same, but the vertex that goes on after a collapse may be the other one of
- * the two, so that the order may differ; restriction() follows the mesh as it is. Among the edges
- * without length, which are merged before a run asks whether to stop, there are levels that no run
- * stops at.
+ * (`Mesh copy = mesh;` before the run) the mesh of N vertices therefore equals that of a run
+ * stopped at N, with equal options, also those that depend on the target (see `Collapse_log`).
+ * Connectivity, coordinates and the order of vertices, faces and edges before garbage is collected
+ * are the same; only the halfedge that a face or vertex names may differ. On the same mesh rebuilt
+ * in another way (read from a file again, in another type) connectivity and coordinates are still
+ * the same. The order may differ, since the other end of an edge may survive its collapse;
+ * restriction() follows the mesh as it is. Edges without length are merged before a run asks
+ * whether to stop, so no run stops at the levels among them.
  *
- * Coordinates that are not `double` are restored from `double`; an end of an edge stays what it is.
+ * Coordinates that are not `double` are restored from `double`; a merge that keeps an end of its
+ * edge copies that point.
  *
  * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
  * @tparam NamedParameters those of the constructor
@@ -213,7 +212,7 @@ public:
 
   /*!
    * @param mesh a copy of the input of the log, as it was before the run; must outlive this object
-   * @param log is kept; move it here if it is needed no more
+   * @param log a copy is kept; move it here if you no longer need it
    * @param np an optional sequence of named parameters among those below, all of the copy
    *
    * \cgalNamedParamsBegin
@@ -251,9 +250,9 @@ public:
    * Collapses the mesh to N vertices.
    *
    * @throws std::invalid_argument, before anything is changed, unless N is from the end of the log
-   *         to number_of_vertices() (a replay goes forward only: begin again with another copy);
-   *         where two vertices are not joined that should be: the mesh is not a copy of the input,
-   *         and is left where that was found
+   *         to number_of_vertices() (a replay only coarsens: begin again with another copy). Also
+   *         if two vertices that should be joined are not: the mesh is not a copy of the input, and
+   *         is left where that was found
    * @throws std::logic_error when the mesh has got new vertices
    */
   void collapse_to(const std::size_t N)
@@ -277,19 +276,19 @@ public:
     return m_log.number_of_vertices() - std::size_t(m_done);
   }
 
-  /// For each vertex of the mesh as it is, in the order of `vertices(mesh)`, its slot: which vertex
-  /// of the input it goes on from.
+  /// Returns the slot of each vertex of the mesh as it is, in the order of `vertices(mesh)`: the
+  /// vertex of the input that it continues.
   std::vector<Index> slots() const { return m_slots.current(); }
 
-  /// P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of the
-  /// input.
+  /// Returns P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of
+  /// the input.
   Eigen::SparseMatrix<double> restriction() const
   {
     return m_log.forest().restriction(slots(), m_done);
   }
 
-  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged
-  /// into.
+  /// Returns, for each vertex of the input, the position in `vertices(mesh)` of the vertex that it
+  /// was merged into.
   std::vector<std::size_t> vertex_map() const { return m_log.forest().vertex_map(slots(), m_done); }
 
 private:

@@ -21,16 +21,16 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * The vertices of a mesh that lie at its features: those of the border, and those of edges where
- * the normals of both faces are at least an angle apart, with the corners where the border itself
- * turns by that angle. As named parameter `vertex_is_constrained_map` of `spectral_edge_collapse()`
- * or `Spectral_policies` it keeps all of them in place, and their edges:
+ * Tells which vertices of a mesh lie at its features: on the border, on edges where the normals of
+ * both faces are at least an angle apart, and at corners where the border itself turns by that
+ * angle. As named parameter `vertex_is_constrained_map` of `spectral_edge_collapse()` or
+ * `Spectral_policies` it keeps these vertices, and their edges, in place:
  *
  * \code
  * spectral_edge_collapse(mesh, N, {},
  * parameters::vertex_is_constrained_map(Feature_vertices_map<Mesh>(mesh, true, 60))); \endcode
  *
- * The features are found once, when it is made. Copies share what was found.
+ * The features are found once, in the constructor. Copies share them.
  *
  * \cgalModels{ReadablePropertyMap}
  *

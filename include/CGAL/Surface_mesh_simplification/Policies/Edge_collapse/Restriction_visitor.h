@@ -106,9 +106,9 @@ private:
  * and memory per collapse. `Spectral_policies` tracks its own P: it needs no such visitor.
  *
  * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
- * @tparam UserVisitor a visitor that every call is handed on to, after this one has done its part;
- *         copied, as `edge_collapse()` itself copies visitors; a `std::reference_wrapper` is
- *         followed
+ * @tparam UserVisitor a visitor to which every call is forwarded after this one has done its part.
+ *         It is copied, as `edge_collapse()` itself copies visitors; pass a
+ *         `std::reference_wrapper` to share it
  */
 template <class TriangleMesh, class UserVisitor = internal::Dummy_visitor>
 class Restriction_visitor
@@ -121,13 +121,13 @@ public:
   using Triangle_mesh = TriangleMesh; ///< the type of the mesh
   using User_visitor = UserVisitor;   ///< the type of the visitor that calls are handed on to
 
-  /// Takes the mesh as it is now for the fine one.
+  /// Takes the mesh in its present state as the fine mesh.
   explicit Restriction_visitor(Triangle_mesh& mesh, User_visitor user = User_visitor())
     : Base(std::make_shared<Tracker>(mesh), std::move(user))
   {}
 
-  /// P, coarse x fine: rows in the order of `vertices(mesh)` at the time of the call, columns in
-  /// that at construction. Rows sum to 1 and columns have at most one nonzero.
+  /// Returns P, coarse x fine: rows in the order of `vertices(mesh)` now, columns in its order at
+  /// construction. Rows sum to 1, and columns have at most one nonzero.
   ///
   /// @throws std::logic_error when the mesh has got new vertices
   Eigen::SparseMatrix<double> restriction() const
@@ -135,14 +135,14 @@ public:
     return log().forest().restriction(this->m_follower->slots().current());
   }
 
-  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged
-  /// into.
+  /// Returns, for each vertex of the input, the position in `vertices(mesh)` of the vertex that it
+  /// was merged into.
   std::vector<std::size_t> vertex_map() const
   {
     return log().forest().vertex_map(this->m_follower->slots().current());
   }
 
-  /// The merges and the points, from which `Collapse_replay` makes every level of detail.
+  /// Returns the merges and the points, from which `Collapse_replay` makes every level of detail.
   const Collapse_log& log() const { return this->m_follower->log(); }
 
   /// as in the concept; throws `std::invalid_argument` for another mesh than that of the

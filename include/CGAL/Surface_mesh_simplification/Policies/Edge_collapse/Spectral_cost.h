@@ -13,12 +13,12 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * A handle on the state of `Spectral_policies`: the change of E (Eq. 2 of the paper), with what
- * `Spectral_options::shape` adds, that the collapse of an edge to the given placement brings, on
- * the input scaled to unit area. It may be negative.
+ * The cost, a handle on the state of `Spectral_policies`: the change of E (Eq. 2 of the paper) when
+ * an edge is collapsed to the given placement, plus the term of `Spectral_options::shape`, for the
+ * input scaled to unit area. It may be negative.
  *
  * The costs in CGAL's queue, and hence those passed to a stop predicate, may be out of date: an
- * edge whose cost is far above that of recent collapses keeps it when a collapse nearby changes it,
+ * edge whose cost is far above that of recent collapses keeps this cost after a collapse nearby,
  * and is evaluated again at the head of the queue. They are estimates where the metric sees
  * mixtures, see `Spectral_options::number_of_mixtures`. A predicate that needs the error itself
  * asks the policies, as `Spectral_error_stop_predicate` does.
@@ -39,8 +39,8 @@ public:
     : m_state(std::move(state))
   {}
 
-  /// returns the cost of collapsing to the point `placement`; the largest finite number where there
-  /// is no point, where it would move a vertex that is to be kept, or where the cost is more than a
+  /// returns the cost of collapsing to the point `placement`; the largest finite number if there is
+  /// no point, if the point would move a vertex that is to be kept, or if the cost is more than a
   /// `float` can hold.
   template <class Profile, class OptionalPoint>
   auto operator()(const Profile& profile, const OptionalPoint& placement) const

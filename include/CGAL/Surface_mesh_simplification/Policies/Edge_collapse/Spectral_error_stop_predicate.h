@@ -13,8 +13,8 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * Stops before the collapse that would raise the relative error above a bound, so that
- * the mesh is as coarse as the greedy order makes it within that bound.
+ * Stops before the collapse that would raise the relative error above a bound, so that the mesh is
+ * as coarse as the greedy order makes it within that bound.
  *
  * \cgalModels{StopPredicate}
  *
@@ -42,13 +42,13 @@ namespace CGAL::Surface_mesh_simplification {
  * | error, averaged              | 0.055 | 0.11 | 0.14 | 0.16 | 0.16 |
  * | mean eigenvalue error        | 0.2 % | 0.5 % | 0.8 % | 1.9 % | 6.7 % |
  *
- * So 0.1 keeps the spectrum closely, 0.14 well, and 0.16 is about as far as the metric sees: near 3
- * K vertices the error reaches its largest value and then *falls*, because signals that are
- * averaged out on both sides of Eq. 2 no longer differ. A bound above that value never stops a run:
- * give it a number of vertices as well, 3 K for instance, with `Spectral_stop_predicate`.
+ * So 0.1 keeps the spectrum closely and 0.14 well; 0.16 is about the largest error that the metric
+ * sees. Near 3 K vertices the error reaches its largest value and then *falls*, because signals
+ * that are averaged out on both sides of Eq. 2 no longer differ. A bound above that value never
+ * stops a run: use `Spectral_stop_predicate` with a number of vertices as well, for instance 3 K.
  *
- * The bound holds for the result to rounding, but for edges without length, which are merged before
- * any predicate is asked. It needs the visitor of the policies, and, where the placement is
+ * The result keeps the bound to rounding, except for edges without length, which are merged before
+ * any predicate is called. The predicate needs the visitor of the policies and, if the placement is
  * wrapped, the wrapper.
  *
  * @tparam Policies a `Spectral_policies`; deduced
@@ -59,7 +59,7 @@ class Spectral_error_stop_predicate
 {
 public:
   /// @param policies those of the run
-  /// @param maximum_error the bound, from 0; a number that is not throws `std::invalid_argument`
+  /// @param maximum_error the bound, from 0; another number throws `std::invalid_argument`
   Spectral_error_stop_predicate(const Policies& policies, const double maximum_error)
     : Spectral_error_stop_predicate(policies, maximum_error, policies.get_placement())
   {}

@@ -15,11 +15,11 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * For the named parameter `filter` of `edge_collapse()`: refuses a collapse that would move a
- * vertex of `Spectral_options::kept_vertices`, or merge two of them, or put a face through another
- * where `Spectral_options::keep_free_of_self_intersections` asks for none.
+ * A filter for the named parameter `filter` of `edge_collapse()`. It refuses a collapse that would
+ * move a vertex of `Spectral_options::kept_vertices` or merge two of them, or put a face through
+ * another, if `Spectral_options::keep_free_of_self_intersections` is set.
  *
- * `Spectral_placement` never proposes one. A placement wrapped around it may:
+ * `Spectral_placement` never proposes such a collapse. A placement wrapped around it may:
  * `Constrained_placement` takes the first end with a constrained edge, whatever is at the other.
  * `spectral_edge_collapse()` uses this filter by itself; with `edge_collapse()` pass
  * `.filter(spectral.filter())`. Made by `Spectral_policies::filter()`.
@@ -36,7 +36,7 @@ public:
     , m_user(std::move(user))
   {}
 
-  /// the placement, or none
+  /// returns the placement, or none if it is refused
   template <class Profile>
   internal::Spectral_optional<typename Profile::Point>
   operator()(const Profile& profile,

@@ -13,10 +13,10 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * A handle on the state of `Spectral_policies`: the point on the edge where the cost is least
- * (section 3.4 of the paper), its midpoint, or a point near the edge (appendix A). No point where
- * every position makes a triangle without area, moves a vertex that is to be kept or puts a face
- * through another, or where the collapse is topologically impossible.
+ * The placement, a handle on the state of `Spectral_policies`: the point on the edge where the cost
+ * is least (section 3.4 of the paper), its midpoint, or a point near the edge (appendix A). There
+ * is none if the collapse is topologically impossible, or if every position makes a triangle
+ * without area, moves a vertex that is to be kept or puts a face through another.
  *
  * \cgalModels{GetPlacement}
  *

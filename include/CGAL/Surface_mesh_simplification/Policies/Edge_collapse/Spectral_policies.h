@@ -40,8 +40,8 @@ namespace CGAL::Surface_mesh_simplification {
  * (Eq. 2 of Lescoat et al., *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020),
  * where F holds the first K eigenvectors of the input and P is the restriction from the input to
  * the current mesh. With `Spectral_options::mass` set to `averaged` the mass matrix B replaces M in
- * its weak form, \f$ E = \sum_w \| (\tilde B P Z - \tilde L P F)_w \|^2 / \tilde M_w \f$. Values
- * are those of the input scaled to unit area.
+ * its weak form, \f$ E = \sum_w \| (\tilde B P Z - \tilde L P F)_w \|^2 / \tilde M_w \f$. All
+ * values are for the input scaled to unit area.
  *
  * \code
  * SMS::Spectral_policies spectral(mesh);
@@ -53,10 +53,9 @@ namespace CGAL::Surface_mesh_simplification {
  * \endcode
  *
  * All three must be passed; without the visitor the first cost throws `std::logic_error`. The
- * object is a handle: copies share one state; one that has been moved from throws
- * `std::logic_error` when it is used. The mesh must outlive it, and must not be given new vertices.
- * A second `edge_collapse()` with the same policies continues, and P still starts at the original
- * input.
+ * object is a handle: copies share one state, and a moved-from object throws `std::logic_error`
+ * when it is used. The mesh must outlive it and must not get new vertices. A second
+ * `edge_collapse()` with the same policies continues, and P still starts at the original input.
  *
  * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
  * @tparam GeomTraits   a kernel, that of the points by default; exact numbers are read by
@@ -89,8 +88,8 @@ public:
    *
    * @param mesh a triangle mesh without isolated vertices
    * @param options see `Spectral_options`
-   * @param np an optional sequence of named parameters among those below. The first two are the
-   * same that `edge_collapse()` gets; the others are read here and not again
+   * @param np an optional sequence of named parameters among those below. The first two must be
+   * those of `edge_collapse()`; the others are read only here
    *
    * \cgalNamedParamsBegin
    *   \cgalParamNBegin{vertex_point_map}
@@ -129,76 +128,77 @@ public:
     : m_state(std::make_shared<State>(mesh, options, np))
   {}
 
-  /// The cost that `edge_collapse()` must get, a model of `GetCost`.
+  /// Returns the cost to pass to `edge_collapse()`, a model of `GetCost`.
   Get_cost get_cost() const { return Get_cost(shared_state()); }
 
-  /// The placement that `edge_collapse()` must get, a model of `GetPlacement`. It may be wrapped,
-  /// see filter().
+  /// Returns the placement to pass to `edge_collapse()`, a model of `GetPlacement`. You may wrap
+  /// it, see filter().
   Get_placement get_placement() const { return Get_placement(shared_state()); }
 
-  /// The visitor that `edge_collapse()` must get. It also calls yours, if any; `std::ref(v)` is
-  /// called itself, anything else is copied.
+  /// Returns the visitor to pass to `edge_collapse()`. It also calls yours, if any: pass
+  /// `std::ref(v)` to share v; anything else is copied.
   template <class Visitor = internal::Dummy_visitor>
   Spectral_visitor<State, Visitor> visitor(Visitor user_visitor = Visitor()) const
   {
     return Spectral_visitor<State, Visitor>(shared_state(), std::move(user_visitor));
   }
 
-  /// Where the placement is wrapped, in `Constrained_placement` for instance, and there are
-  /// vertices to keep, or no face is to go through another: the filter that `edge_collapse()` must
-  /// get; without it the first collapse to a point of the wrapper throws `std::logic_error`. It
-  /// also asks yours, if any, which is copied.
+  /// Returns the filter that `edge_collapse()` needs if the placement is wrapped, in
+  /// `Constrained_placement` for instance, and there are vertices to keep or no face may go through
+  /// another. Without it the first collapse to a point of the wrapper throws `std::logic_error`. It
+  /// also calls yours, if any, which is copied.
   template <class Filter = internal::Dummy_filter>
   Spectral_filter<State, Filter> filter(Filter user_filter = Filter()) const
   {
     return Spectral_filter<State, Filter>(shared_state(), std::move(user_filter));
   }
 
-  /// P, coarse x fine (section 3.2): rows in the order of `vertices(mesh)` at the time of the call,
-  /// columns in that at construction. Rows sum to 1 and columns have at most one nonzero.
+  /// Returns P, coarse x fine (section 3.2): rows in the order of `vertices(mesh)` now, columns in
+  /// its order at construction. Rows sum to 1, and columns have at most one nonzero.
   Eigen::SparseMatrix<double> restriction() const
   {
     return state().log().forest().restriction(state().current_slots());
   }
 
-  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged
-  /// into.
+  /// Returns, for each vertex of the input, the position in `vertices(mesh)` of the vertex that it
+  /// was merged into.
   std::vector<std::size_t> vertex_map() const
   {
     return state().log().forest().vertex_map(state().current_slots());
   }
 
-  /// The merges so far and where each left its vertex, from which `Collapse_replay` makes every
-  /// level of detail between the input and the current mesh.
+  /// Returns the log of the merges so far and of the points where they put their vertices.
+  /// `Collapse_replay` makes every level of detail between the input and the current mesh from it.
   Collapse_log log() const { return state().log(); }
 
-  /// Fine x coarse: takes functions on the current mesh back to the input, by barycentric
-  /// coordinates of the closest point of the current mesh on the same part of the body. Rows sum to
-  /// 1.
+  /// Returns the prolongation, fine x coarse, which takes functions on the current mesh back to the
+  /// input. Rows hold barycentric coordinates of the closest point of the current mesh on the same
+  /// part of the body, and sum to 1.
   Eigen::SparseMatrix<double> prolongation() const
   {
     return Spectral_geometry::closest_point_prolongation(state().fine(), current_matrices(),
                                                          restriction());
   }
 
-  /// The eigenpairs of the input, at its own scale; null with signals of the user's or of filtered
-  /// noise. Put them into `Spectral_options::eigenpairs` to simplify the same input again.
+  /// Returns the eigenpairs of the input, at its own scale; null with signals of your own or
+  /// filtered noise. Put them into `Spectral_options::eigenpairs` to simplify the same input again.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const
   {
     return state().basis().eigenpairs;
   }
 
-  /// E of the current mesh (Eq. 2), for the input scaled to unit area; tracked while collapsing.
+  /// Returns E of the current mesh (Eq. 2), for the input scaled to unit area; tracked while
+  /// collapsing.
   double error() const { return state().error(); }
 
-  /// sqrt(E / sum_k w_k lambda_k^2) over the eigenvectors that the metric sees, w being
-  /// `Spectral_options::weights`, which does not depend on scale; for signals of the user's sqrt(E)
-  /// / || Z ||_B. 0 where the signals are constant (K = 1 for instance): P carries constants over
-  /// exactly.
+  /// Returns sqrt(E / sum_k w_k lambda_k^2), which does not depend on scale; the sum is over the
+  /// eigenvectors that the metric sees, with w = `Spectral_options::weights`. For signals of your
+  /// own it is sqrt(E) / || Z ||_B. It is 0 if the signals are constant (as for K = 1): P carries
+  /// constants over exactly.
   double relative_error() const { return state().relative_error(); }
 
-  /// One sentence where the last run ended because every edge left was refused: the reasons, genus
-  /// and components among them, and what to do. Empty where its stop predicate ended it.
+  /// Returns one sentence if the last run ended because every edge left was refused: the reasons,
+  /// with genus and components, and what to do. Empty if its stop predicate ended the run.
   std::string explanation() const
   {
     return state().has_run_out_of_edges()
@@ -206,11 +206,11 @@ public:
                : std::string();
   }
 
-  /// Candidates that were given up in all runs so far, by cause.
+  /// Returns the numbers of candidates refused in all runs so far, by cause.
   Spectral_refusals refusals() const { return state().refusals(); }
 
-  /// One sentence for each thing that was done but is not advised: eigenpairs that did not reach
-  /// their tolerance, a mesh of less than 3 K vertices, a relative error above one half.
+  /// Returns one sentence for each thing that was done but is not advised: eigenpairs that did not
+  /// reach their tolerance, a mesh of less than 3 K vertices, a relative error above one half.
   std::vector<std::string> warnings() const
   {
     std::vector<std::string> result;

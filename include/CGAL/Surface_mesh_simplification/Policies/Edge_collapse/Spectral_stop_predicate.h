@@ -16,14 +16,13 @@ namespace CGAL::Surface_mesh_simplification {
 
 /*!
  * Ends a run at a number of vertices, at an error, or when the user cancels it, whichever comes
- * first, and calls `Spectral_options::progress` about a hundred times. What
- * `spectral_edge_collapse()` uses; with `edge_collapse()` the only place where its collapses can be
- * cancelled, because the mesh is valid here.
+ * first, and calls `Spectral_options::progress` about a hundred times. `spectral_edge_collapse()`
+ * uses it. With `edge_collapse()` collapses can be cancelled only here, where the mesh is valid.
  *
  * \cgalModels{StopPredicate}
  *
- * It needs the visitor of the policies. What the functions below say is of the last run that asked
- * it: a second `edge_collapse()` with the same predicate begins anew.
+ * It needs the visitor of the policies. The functions below refer to the last run that called it: a
+ * second `edge_collapse()` with the same predicate begins anew.
  *
  * @tparam Policies a `Spectral_policies`; deduced
  * @tparam GetPlacement the placement that `edge_collapse()` gets; deduced
@@ -74,9 +73,9 @@ public:
 
   /// whether the number of vertices ended the run
   bool reached() const { return m_reached; }
-  /// whether the bound of the error did
+  /// whether the error bound ended it
   bool error_reached() const { return m_error_reached; }
-  /// whether the user did
+  /// whether the user cancelled it
   bool cancelled() const { return m_cancelled; }
 
 private:
@@ -105,7 +104,7 @@ private:
   // It counts the vertices of the mesh, whoever follows it.
   Vertex_count_stop_predicate<typename Policies::Triangle_mesh> m_count_stop;
   Spectral_error_stop_predicate<Policies, GetPlacement> m_error_stop;
-  // The run that the rest is of, and its number of vertices at the first call.
+  // The run that the members below refer to, and its number of vertices at the first call.
   mutable std::size_t m_run = 0, m_begin = 0;
   mutable double m_next_report = 0, m_fraction = 0;
   mutable bool m_reached = false, m_error_reached = false, m_cancelled = false;

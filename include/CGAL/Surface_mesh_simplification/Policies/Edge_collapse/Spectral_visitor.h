@@ -15,8 +15,8 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 namespace internal {
 
-/// Tells a follower of the mesh what `edge_collapse()` does, and then a visitor of the user's. The
-/// run ends with the visitor, even when an exception leaves the loop.
+/// Forwards the calls of `edge_collapse()` to a follower of the mesh, then to the user's visitor.
+/// The run ends with this visitor, even when an exception leaves the loop.
 template <class Follower, class UserVisitor>
 class Following_visitor
 {
@@ -89,8 +89,8 @@ private:
 } // namespace internal
 
 /*!
- * A handle on the state of `Spectral_policies` that keeps the state in step with
- * the mesh, and hands every call on to a visitor of the user's.
+ * A handle on the state of `Spectral_policies` that keeps the state in step with the mesh and
+ * forwards every call to the user's visitor.
  *
  * \cgalModels{EdgeCollapseSimplificationVisitor}
  *

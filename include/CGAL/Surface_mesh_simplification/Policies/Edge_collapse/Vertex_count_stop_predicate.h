@@ -17,15 +17,15 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * Stops when the mesh has at most the given number of vertices, isolated ones
- * included. Works with every cost and placement, without a visitor.
+ * Stops when the mesh has at most the given number of vertices, isolated ones included. Works with
+ * every cost and placement, without a visitor.
  *
  * \cgalModels{StopPredicate}
  *
- * CGAL tells a stop predicate edge counts only, and counting vertices is linear while a mesh is
- * being collapsed. Each collapse removes one vertex, and two or three edges: so the vertices are
- * counted at the first call, and one less is taken whenever the edge count has fallen by that much.
- * Any other change of the edge count, a new run on a changed mesh for instance, makes it count
+ * CGAL passes only edge counts to a stop predicate, and counting vertices takes linear time while a
+ * mesh is being collapsed. Each collapse removes one vertex and two or three edges. So the vertices
+ * are counted at the first call, and one is subtracted whenever the edge count has fallen by that
+ * much. Any other change of the edge count, such as a new run on a changed mesh, makes it count
  * again.
  *
  * The mesh must outlive the predicate. Copies made before the first call are independent.
@@ -43,7 +43,7 @@ public:
     , m_mesh(&mesh)
   {}
 
-  /// a temporary would be gone when it is counted
+  /// a temporary mesh would be gone when its vertices are counted
   Vertex_count_stop_predicate(std::size_t, const Triangle_mesh&&) = delete;
 
   /// whether the mesh, after the collapses so far, has at most N vertices
