@@ -32,7 +32,7 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// The larger of two in the middle, 0 of none.
+/// The upper median; 0 of no numbers.
 inline double median(Eigen::VectorXd numbers)
 {
   double *const begin = numbers.data(), *const end = begin + numbers.size(),

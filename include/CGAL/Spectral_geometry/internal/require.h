@@ -35,8 +35,8 @@ void add_words(std::string& text, const Part& part)
     text += part();
 }
 
-/// What the parts say: strings, numbers, and names as below, which nobody makes before they are
-/// needed.
+/// Concatenates the parts: strings, numbers, and names as below. A name is a function, so its text
+/// is made only when it is needed.
 template <class... Part>
 std::string sentence(const Part... parts)
 {
@@ -80,7 +80,7 @@ void check_rows_of_restriction(const char* const who, const Restriction& P)
             sums[i], " and not to 1; pass the P of a run, or of closest_point_restriction().");
 }
 
-/// One size of matrices from which functional maps are made, or of such a map.
+/// Checks one dimension of a functional map, or of a matrix from which such a map is made.
 inline void check_dimension(const char* const what, const std::ptrdiff_t found,
                             const std::ptrdiff_t wanted)
 {

@@ -11,10 +11,10 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// The nearest of many points in a space of many dimensions, exactly (Omohundro 1989), by balls in
-/// the leading dimensions alone: what eigenvectors of low frequency tell apart needs no look at the
-/// others. On 28,000 points that 100 eigenvectors embed, queried by those of another pose, it takes
-/// 0.4 of the time of CGAL's k-d tree, in three dimensions twice as long.
+/// Exact nearest neighbours among many points in many dimensions (Omohundro 1989). Balls use the
+/// leading dimensions alone: points that eigenvectors of low frequency tell apart need no look at
+/// the others. On 28,000 points that 100 eigenvectors embed, queried by those of another pose, a
+/// search takes 0.4 of the time of CGAL's k-d tree; in three dimensions it takes twice as long.
 class Ball_tree
 {
 public:

@@ -11,8 +11,8 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// A matrix panel by panel, of eight columns each. The last one is filled up with zeros, and so are
-/// the last eight rows of a copy: rows 8 p .. 8 p + 7 of a panel are a block for the kernels.
+/// A matrix stored in panels of eight columns. The last panel is padded with zeros, and a copy with
+/// zero rows to a multiple of eight: rows 8 p .. 8 p + 7 of a panel are a block for the kernels.
 class Panel_matrix
 {
 public:

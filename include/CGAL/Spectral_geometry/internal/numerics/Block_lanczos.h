@@ -17,10 +17,10 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-// The number of eigenvalues below a gap minus the number of those found. The gap is that below the
-// K-th value and the group that it belongs to: copies of values(K-1) itself need not be counted,
-// any K of them are right. Factorisations without pivoting can be wrong next to an eigenvalue of a
-// leading block, which a shift elsewhere in the gap avoids; -1 when none does.
+// The number of eigenvalues below a gap minus the number found. The gap lies below the group that
+// the K-th value belongs to: copies of values(K-1) itself need not be counted, any K of them are
+// right. A factorisation without pivoting can be wrong next to an eigenvalue of a leading block.
+// Another shift in the gap avoids that; -1 if none does.
 inline Index count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, int threads)
 {
   const double s = problem.shift();
@@ -117,9 +117,9 @@ public:
 
   Eigen::VectorXd values() const { return lambda().cwiseMax(0.); }
 
-  // Ritz vectors X in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
-  // Each becomes S X / theta = X + W link / theta (Ericsson and Ruhe 1980): L would enlarge what X
-  // has of the highest modes.
+  // Returns the Ritz vectors X in the order of the mesh, orthonormal in B instead of s B. Destroys
+  // the basis. Each vector becomes S X / theta = X + W link / theta (Ericsson and Ruhe 1980): L
+  // would amplify the components of X along the highest modes.
   Eigenpairs pairs()
   {
     Eigen::MatrixXd C = links(0, m_K) * m_theta.head(m_K).cwiseInverse().asDiagonal();
@@ -249,10 +249,10 @@ private:
     m_after_restart = false;
     m_T.block(row, row, panel_width, panel_width) = 0.5 * (A + A.transpose());
 
-    // Rounding errors along converged vectors grow by theta in each step, divided by the smallest
-    // singular value of the link. When that has come to a bound well below the square root of the
-    // machine precision, where T would lose digits (Simon 1984), the last two panels are cleaned in
-    // one pass over the basis. Every third or fourth step does.
+    // Rounding errors along converged vectors grow in each step by theta divided by the smallest
+    // singular value of the link. At the square root of the machine precision T would lose digits
+    // (Simon 1984). At a bound well below it the last two panels are reorthogonalised in one pass
+    // over the basis: in every third or fourth step.
     if(m_loss > (m_inside ? 1e-12 : 1e-11) || m_locked) {
       orthogonalise(m_panels - 1);
       m_loss = std::numeric_limits<double>::epsilon();
@@ -272,8 +272,8 @@ private:
     push_panel();
   }
 
-  // Makes the next panel orthogonal to the basis, and in the same pass over it the last panel to so
-  // many of those before it.
+  // Orthogonalises the next panel against the basis, and in the same pass the last panel against
+  // the first `before_last` panels.
   void orthogonalise(Index before_last = 0)
   {
     if(m_panels == 0)
@@ -304,9 +304,9 @@ private:
     }
   }
 
-  // Gram-Schmidt where the space is (nearly) invariant along some directions: the longest column
-  // first, each of its true length, which one Gram matrix does not show below 1e-8 of the longest.
-  // What is left of the others is rounding: random vectors without a link take their places.
+  // Gram-Schmidt for a space that is (nearly) invariant along some directions: longest column
+  // first, each with its true length, as one Gram matrix does not resolve those below 1e-8 of the
+  // longest. The rest is rounding; random vectors without a link replace it.
   void reveal_rank()
   {
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(panel_width, panel_width);
@@ -411,9 +411,9 @@ private:
   }
 
   // Starts again from Ritz vectors and eight more random vectors, until a count of the eigenvalues
-  // agrees. Each round finds eight more copies. T knows of no link to the Ritz vectors: they must
-  // have converged, which those beyond the first K have not, and what the tolerance leaves of a
-  // link is taken off in each step.
+  // agrees. Each round finds eight more copies. T has no link to the Ritz vectors. So only
+  // converged ones are kept, none beyond the first K, and each step removes what the tolerance
+  // leaves of a link.
   void find_missing()
   {
     m_locked = true;
@@ -426,9 +426,9 @@ private:
     }
   }
 
-  // Extends the space until the K wanted Ritz values have converged. False where the shift is
-  // inside, and next to an eigenvalue, where one vector drowns the others, or the space is full
-  // without all values below the shift: then there are more copies of one than a block finds.
+  // Extends the space until the K wanted Ritz values have converged. With a shift inside, false if
+  // it is next to an eigenvalue, whose vector drowns the others, or if the space is full without
+  // all values below the shift: then one of them has more copies than a block finds.
   bool iterate(Index next_check)
   {
     Index last_dimension = 0;
@@ -463,7 +463,7 @@ private:
     }
   }
 
-  // Residuals fall geometrically, faster and faster: half of the way that the last two suggest. A
+  // Residuals fall geometrically, faster and faster: 0.6 of the way that the last two suggest. A
   // check costs as much as two steps.
   Index distance_to_next_check(double worst, double last_worst, Index distance) const
   {
@@ -526,8 +526,8 @@ private:
     return m_link * bottom;
   }
 
-  // 1 / |theta|, and for eigenvalues that are smaller than their distance to the shift as much
-  // more: those next to 0 are as good as the others where residuals are divided by lambda + scale.
+  // 1 / |theta|, times (distance to the shift) / (lambda + scale) where this ratio exceeds 1. So
+  // pairs next to 0 are as good as the others where residuals are divided by lambda + scale.
   double weight_of_residual(double theta) const
   {
     const double distance = 1. / std::abs(theta), lambda = m_sigma + m_problem.shift() / theta;

@@ -14,8 +14,8 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the
-/// median leaves needles aside.
+/// The unit of L, 1 for cotangents: the median of its diagonal divided by 2 sqrt(3), the diagonal
+/// entry of equilateral triangles. The median ignores needles.
 inline double unit_of_stiffness(const Eigen::SparseMatrix<double>& L)
 {
   const Eigen::VectorXd diagonal = L.diagonal();
@@ -24,7 +24,7 @@ inline double unit_of_stiffness(const Eigen::SparseMatrix<double>& L)
 }
 
 /// The mean spacing of eigenvalues by Weyl's law, 4 pi / area, in the unit of L. The shapes of
-/// triangles explain a factor of a thousand, beyond that it is a unit.
+/// triangles explain a factor of up to a thousand; beyond that it is a unit.
 inline double pencil_shift(const Laplace_operator& op)
 {
   const double unit = unit_of_stiffness(op.L);
@@ -47,8 +47,8 @@ struct Not_converged : std::runtime_error
 class Eigen_problem
 {
 public:
-  /// A part of a larger pencil has a shift of its own, and the residuals that it has in the whole,
-  /// whose shift is `scale`.
+  /// A part of a larger pencil has a shift of its own. Its residuals are relative to `scale`, the
+  /// shift of the whole.
   explicit Eigen_problem(const Laplace_operator& op, const Run_control& control = {},
                          const std::optional<double> scale = {})
     : m_op(op)
@@ -119,7 +119,7 @@ public:
     return std::numeric_limits<double>::epsilon() * norm(terms) / (pairs.values(k) + m_scale);
   }
 
-  // What is left of eigenvalue 0 by rounding in L: beside needles it is larger than low
+  // The value that rounding in L can leave for eigenvalue 0. On a mesh with needles it exceeds low
   // eigenvalues.
   double rounding_of_values() const
   {
@@ -138,7 +138,7 @@ private:
   mutable double m_fraction = 0.;
 };
 
-// Says how L is wrong, where B is definite, and goes on where only rounding is negative.
+// Throws if L has the wrong sign or is indefinite beyond rounding, provided that B is definite.
 inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
 {
   const double s = problem.shift();
@@ -150,8 +150,8 @@ inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
           " of its eigenvalues are negative; add a multiple of B to it.");
 }
 
-// A sign must not hang on a tie. Largest entries tie on symmetric shapes, and all odd moments of
-// antisymmetric vectors vanish; an entry of exactly 0.618... times the largest is not structural.
+// A sign must not depend on a tie. The largest entries tie on symmetric shapes, and all odd moments
+// of antisymmetric vectors vanish. No symmetry makes an entry exactly 0.618... times the largest.
 inline void fix_signs(Eigen::MatrixXd& vectors)
 {
   for(Eigen::Index k = 0; k < vectors.cols(); ++k) {

@@ -166,8 +166,8 @@ inline void subtract_product(double* W, const double* P, std::ptrdiff_t rows, co
   });
 }
 
-/// y_i = sum over the entries of row i of a sparse matrix of value times x_column, for rows begin
-/// .. end.
+/// y = A x for the rows begin .. end - 1 of a sparse matrix A, stored by rows in `start`, `column`
+/// and `value`.
 inline void multiply(const int* start, const int* column, const double* value, const double* x,
                      double* y, std::ptrdiff_t begin, std::ptrdiff_t end)
 {
@@ -184,7 +184,7 @@ inline void multiply(const int* start, const int* column, const double* value, c
   });
 }
 
-// The next one for `Count` rows, one access to T for all of them.
+// multiply_block() for `Count` rows, which share every access to T.
 template <class Row, int Count>
 CGAL_SPECTRAL_INLINE void multiply_rows(double* C, std::ptrdiff_t c, int columns, const double* A,
                                         std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
@@ -214,8 +214,8 @@ CGAL_SPECTRAL_INLINE void multiply_rows(double* C, std::ptrdiff_t c, int columns
   }
 }
 
-/// C -= A T over some rows, or C = A T, which may be A itself; T has `count` rows of eight numbers,
-/// zeros beyond the `columns` of C. Rows of C and A lie `c` and `a` numbers apart.
+/// C = A T over some rows (C may be A itself), or C -= A T if `subtracted`. T has `count` rows of
+/// eight numbers, zeros beyond the `columns` of C. Rows of C and A lie `c` and `a` numbers apart.
 inline void multiply_block(double* C, std::ptrdiff_t c, int columns, const double* A,
                            std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
                            std::ptrdiff_t rows, bool subtracted)

@@ -10,9 +10,9 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-// Coefficients with respect to several panels: 8 rows for each of them. Of one they are an
-// Eigen::MatrixXd outside of this class: its products and factorisations are compiled for others,
-// too, and a row-major type of eight columns would have its own.
+// Coefficients with respect to several panels, 8 rows for each. Outside of this class those of one
+// panel are an Eigen::MatrixXd, whose products and factorisations are compiled anyway. A row-major
+// type of eight columns would need its own.
 using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, panel_width, Eigen::RowMajor>;
 
 /// Linear algebra on panels in the inner product of a mass matrix. Sums run over a fixed number of

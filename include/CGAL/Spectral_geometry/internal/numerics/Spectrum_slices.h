@@ -11,13 +11,13 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Many pairs, some hundred at a time, each with a shift among them (spectrum slicing: Grimes,
-/// Lewis and Simon 1994). One Krylov space of all would be as large as they are, and its projected
-/// problem cubic in that.
+/// Computes many pairs in slices of some hundred, each with a shift among its values (spectrum
+/// slicing: Grimes, Lewis and Simon 1994). A single Krylov space would be as large as all pairs,
+/// and the cost of its projected problem cubic in their number.
 ///
-/// A slice ends in the widest gap near its upper end. The next one looks for as many values between
-/// there and its shift as the inertia counts: had this one missed a copy, the next would find a
-/// value below the gap.
+/// A slice ends in the widest gap near its upper end. The next slice looks for exactly as many
+/// values between this gap and its shift as the inertia counts. If a slice had missed a copy, the
+/// next one would find a value below the gap.
 class Spectrum_slices
 {
 public:
@@ -37,7 +37,7 @@ public:
     , m_lanczos(m_part, largest, options)
   {}
 
-  /// Throws `Not_converged` where a slice has no end, or misses copies.
+  /// Throws `Not_converged` where no shift serves for a slice, or copies are missing.
   Eigenpairs compute()
   {
     while(m_found < m_pairs.size())
@@ -106,7 +106,7 @@ private:
     throw Not_converged("a slice of the spectrum has no end");
   }
 
-  // What the tolerance has left of other slices is large where a gap is narrow.
+  // Removes what the tolerance has left of lower slices: it is large where a gap is narrow.
   void append(const Eigenpairs& slice, const Index kept)
   {
     const auto lower = m_pairs.vectors.leftCols(m_found);

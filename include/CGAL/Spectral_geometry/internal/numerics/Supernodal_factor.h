@@ -67,8 +67,8 @@ inline std::vector<int> postordered_minimum_degree(const Sparse_matrix& A)
   return result;
 }
 
-// The number of entries of each column of the Cholesky factor, the diagonal included: row k of the
-// factor has those that the way up the tree from an entry of row k of A meets.
+// The number of entries of each column of the Cholesky factor, including the diagonal. Row k of the
+// factor has an entry in each column on the paths up the tree from the entries of row k of A.
 inline std::vector<int> column_counts(const Sparse_matrix& A, const std::vector<int>& parent)
 {
   const int n = static_cast<int>(A.cols());
@@ -127,8 +127,7 @@ inline std::vector<Column_group> group_columns(const Sparse_matrix& A)
   return groups;
 }
 
-/// A set of neighbouring supernodes that no other supernode outside of the set and its ancestors
-/// depends on.
+/// A set of neighbouring supernodes on which no other supernodes depend but their ancestors.
 struct Branch
 {
   std::size_t first, last;    // supernodes first .. last - 1
@@ -147,23 +146,22 @@ struct Not_positive_definite : std::runtime_error
   {}
 };
 
-/// The factorisation P A P^T = L S L^T of a symmetric matrix, of which the lower triangle is read;
-/// S has the signs of the pivots, and is the identity where A is positive definite. A is
-/// compressed.
+/// The factorisation P A P^T = L S L^T of a symmetric matrix. A is compressed, and only its lower
+/// triangle is read. S holds the signs of the pivots; it is the identity if A is positive definite.
 ///
-/// Supernodes are eliminated one by one, children first, and hand to their parent what they
-/// subtract from the rest of the matrix (the multifrontal method: Duff and Reid 1983, Liu 1992).
-/// All of it is products with panels of eight columns, and so are the solves. On a mesh of 50,000
-/// vertices CHOLMOD takes 3.5 times as long for the numbers with the reference BLAS, and three
-/// times as long for a vector. Branches of the elimination tree, of which each is a 256th of the
-/// factor at least, are worked on in parallel, in the solves each with its own copy of the
-/// ancestors' rows, which are then added in a fixed order: results do not depend on the number of
-/// threads.
+/// Supernodes are eliminated one by one, children first. Each passes its update of the remaining
+/// matrix to its parent (the multifrontal method: Duff and Reid 1983, Liu 1992). The factorisation
+/// and the solves consist of products with panels of eight columns. On a mesh of 50,000 vertices
+/// CHOLMOD takes 3.5 times as long for the numerical factorisation with the reference BLAS, and
+/// three times as long to solve for a vector. Branches of the elimination tree, each at least a
+/// 256th of the factor, are processed in parallel. In the solves each branch has its own copy of
+/// the ancestors' rows. The copies are added in a fixed order: results do not depend on the number
+/// of threads.
 class Supernodal_factor
 {
 public:
-  /// What pivots may be. There is no pivoting: with those of either sign the caller looks at what a
-  /// solve leaves.
+  /// The permitted signs of pivots. There is no pivoting: with pivots of either sign the caller
+  /// must check the residual of a solve.
   enum class Pivots { positive, of_either_sign };
 
   /// Throws `Not_positive_definite` where a pivot is not positive, std::runtime_error where there
@@ -388,8 +386,8 @@ private:
 
   // --- the numbers ---
 
-  // Supernode k: its block F, (width + below) x width by rows, becomes L, and U, below x below,
-  // what it hands to its parent. `signs` are those of its pivots, 1 before.
+  // Eliminates supernode k. Its block F, (width + below) x width by rows, becomes L; U, below x
+  // below, is the update for its parent. `signs` receives the signs of its pivots and is 1 before.
   void eliminate(std::size_t k, std::vector<std::vector<double>>& updates, double* signs,
                  int threads)
   {
@@ -416,7 +414,7 @@ private:
       F[j * w + j] = 1. / F[j * w + j]; // which the solves multiply by
   }
 
-  // Adds the lower triangle of what child c hands over to F and U.
+  // Adds the lower triangle of the update from child c to F and U.
   void add_update(int c, const std::vector<double>& update, double* F, std::size_t w, double* U,
                   std::size_t stride) const
   {
@@ -532,8 +530,9 @@ private:
     }
   }
 
-  // w = L^-T S L^-1 w, with the steps of one supernode. `read` and `write` copy rows first .. last
-  // - 1 into the workspace and out of it: those of a branch on the thread that works on it.
+  // w = L^-T S L^-1 w, by `forward` and `backward`, the steps of one supernode. `read` and `write`
+  // copy rows first .. last - 1 into and out of the workspace; those of a branch are copied by the
+  // thread that works on it.
   template <int columns, class Forward, class Backward, class Read, class Write>
   void solve_in_workspace(double* w, int threads, const Forward& forward, const Backward& backward,
                           const Read& read, const Write& write) const

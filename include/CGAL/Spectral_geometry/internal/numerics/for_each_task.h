@@ -16,14 +16,14 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Calls f(first, end) for ranges of `at_once` numbers of 0 .. size - 1, in any order, on at most
-/// so many threads, which `start(worker)` makes; the last range may be shorter. The caller is one
-/// of the threads, and where the system has no more it does with those it has got.
+/// Calls f(first, end) for ranges of `at_once` numbers of 0 .. size - 1, in any order; the last
+/// range may be shorter. At most `threads` threads take part: the caller and those that
+/// `start(worker)` creates. If the system has no more threads, fewer take part.
 ///
-/// What a call computes must depend on its range alone, and sums over ranges are up to the caller,
-/// in their order, so that no result depends on the number of threads. What one throws, on
-/// whichever thread, the caller gets when all are back; calls that nobody has begun with are left
-/// out then.
+/// What a call computes must depend on its range alone, and the caller adds up results in the order
+/// of the ranges: then no result depends on the number of threads. The first exception of any
+/// thread is rethrown to the caller when all have returned; calls that have not begun are then left
+/// out.
 inline void for_each_range(
     const Eigen::Index size, const Eigen::Index at_once, const int threads,
     const std::function<void(Eigen::Index, Eigen::Index)>& f,

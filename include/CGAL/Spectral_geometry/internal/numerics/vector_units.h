@@ -8,9 +8,9 @@
 #include <CGAL/Spectral_geometry/internal/basics.h>
 
 // Vectors of four doubles are a language extension of GCC and Clang on every target; other
-// compilers do without. On x86_64 the inner loops are compiled twice, for every such machine and
-// for its wide vector units, and the machine decides at run time: a build without any -m flag uses
-// what there is.
+// compilers do without. On x86_64 the inner loops are compiled twice, for the baseline and for wide
+// vector units. The choice is made at run time: a build without any -m flag uses the units that the
+// machine has.
 #if(defined(__GNUC__) || defined(__clang__)) && !defined(CGAL_SPECTRAL_NO_VECTOR_EXTENSION)
 #define CGAL_SPECTRAL_VECTOR_EXTENSION 1
 #define CGAL_SPECTRAL_INLINE inline __attribute__((always_inline))
@@ -35,10 +35,10 @@ constexpr std::size_t cache_line = 64;
 using Aligned_buffer = std::vector<double, boost::alignment::aligned_allocator<double, cache_line>>;
 
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
-/// Four doubles anywhere in memory, or two where wide units are missing, in which GCC makes four
-/// fifteen times slower. Never passed or returned by value: that ABI would depend on -m flags. Nor
-/// copied by memcpy: GCC splits that into the halves of the baseline before the variant for wide
-/// units comes to see it (five times slower).
+/// Four doubles at any address, or two where wide units are missing: there GCC makes vectors of
+/// four fifteen times slower. They are never passed or returned by value: that ABI would depend on
+/// -m flags. Nor are they copied by memcpy: GCC splits the copy into halves for the baseline before
+/// the variant for wide units sees it (five times slower).
 typedef double Four_doubles __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double Two_doubles __attribute__((vector_size(16), aligned(8), may_alias));
 #endif
@@ -51,7 +51,7 @@ inline bool& has_wide_units()
   return result;
 }
 
-// With all that f calls: it is inlined, as far as it is marked CGAL_SPECTRAL_INLINE on Clang.
+// Everything that f calls is inlined as well; on Clang, only what is marked CGAL_SPECTRAL_INLINE.
 template <class Function>
 __attribute__((flatten, target("avx2,fma"))) void call_for_wide_units(const Function& f)
 {

@@ -19,9 +19,10 @@ With d the distance of a sample from the other surface, the term is
 \f[ \omega\, n \Big( \mathop{\mathrm{mean}}_{\text{fine}} h^2 +
 \mathop{\mathrm{mean}}_{\text{coarse}} h^2 \Big), \qquad h = \max(0, d^2 / \delta^2 - 1), \f] where
 n is the number of coarse vertices. Samples of the fine surface are its vertices, those of the
-coarse one its vertices and the middles of its edges and faces. The threshold delta is a part of
-the largest distance of a fine vertex at the start, or a quarter of a coarse sample's: only few
-samples are beyond it, at tips and in folds, and what moves there hardly shows in the spectrum.
+coarse one its vertices and the middles of its edges and faces. The threshold delta is a fraction of
+the largest distance of a fine vertex at the start, or more: a quarter of that of a coarse sample,
+or 1e-6 of the size. Only few samples exceed it, at tips and in folds, where movement hardly affects
+the spectrum.
 
 Between two calls of `refresh()` each sample keeps its closest face. The point in it that is closest
 moves with the vertices, which to the first order does not change the distance.
@@ -108,8 +109,8 @@ public:
     return value;
   }
 
-  /// Calls `mark` for the faces closest, now and at the start, to fine vertices that are further
-  /// from V than any was at the start. Once those of the start are back, so is the distance.
+  /// Finds the fine vertices further from V than any was at the start, and calls `mark` for their
+  /// closest faces, now and at the start. Once the latter are back, so is the distance.
   template <class Mark>
   void for_each_face_left_behind(const Positions& V, const Mark& mark) const
   {

@@ -19,9 +19,9 @@ vertex, that vertex alone moves less and the others go on. A step of the whole t
 descends is halved.
 
 `Objective`: `double value_and_gradient(const Positions&, Positions& gradient)`.
-`Guards`: `void tangential(const Positions& at, Positions& direction)` removes what a vertex may not
-do from a direction or gradient; `void admit(const Positions& from, Positions& to)` makes `to`
-legal, `from` being so.
+`Guards`: `void tangential(const Positions& at, Positions& direction)` removes the forbidden part of
+a direction or gradient; `void admit(const Positions& from, Positions& to)` makes `to` legal if
+`from` is legal.
 */
 template <class Objective, class Guards>
 class Guarded_descent
@@ -97,9 +97,9 @@ private:
 
   static double dot(const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); }
 
-  // The gradient at the vertices of a needle is larger than all others by orders of magnitude, and
-  // would be the only one that is followed. The first guess of the inverse Hessian levels it off:
-  // lengths below 1, one half at the median.
+  // The gradient at the vertices of a needle exceeds all others by orders of magnitude and would
+  // alone determine the direction. The initial inverse Hessian levels gradients: their lengths are
+  // then below 1, one half at the median.
   void set_scales()
   {
     if(m_levelled)
@@ -108,8 +108,8 @@ private:
     m_scales = (lengths.array() + median_of_positive(lengths)).inverse();
   }
 
-  // From now on a vertex moves the less the faster its gradient changes along a short step: at
-  // needles too fast for any step of all vertices. Forgets the history.
+  // From now on a vertex moves the less, the faster its gradient changes along a short step. At
+  // needles it changes too fast for any common step. Forgets the history.
   void level_curvature()
   {
     m_levelled = true;
@@ -125,7 +125,7 @@ private:
     m_scales /= 2 * median_of_positive(m_scales.cwiseProduct(m_gradient.rowwise().norm()));
   }
 
-  // Finite ones; 1 where none is.
+  // The median of the positive and finite ones; 1 if there are none.
   static double median_of_positive(const Eigen::VectorXd& lengths)
   {
     Eigen::VectorXd positive(lengths.size());

@@ -12,10 +12,10 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /*!
-Keeps low coarse eigenvectors from turning towards each other.
+Keeps low coarse eigenvectors from rotating into each other.
 
-Their eigenvalues may be right and they may be turned all the same, which biharmonic and diffusion
-distances see at once. U holds the coarse eigenvectors of the first m modes with a goal, and of
+They may be rotated although their eigenvalues are right. Biharmonic and diffusion distances show
+this at once. U holds the coarse eigenvectors of the first m modes with a goal, and of
 eight more. \f$ Y = U C (C^T C)^{-1/2} \f$ with \f$ C = U^T \widetilde B P \Phi \f$ are the
 orthonormal functions in the span of U that are nearest to the m fine eigenvectors. If nothing is
 turned, the coarse operator is diagonal in Y. The term is the mean square of what is beside the
@@ -26,9 +26,9 @@ It divides by no difference of eigenvalues: modes of one eigenvalue may turn as 
 distance sees. Where the second eigenvalue is far below the others, beyond a thin neck, the pairs
 with it have nearly all of the weight.
 
-Between two calls of `refresh()` Y stays. To the first order in the movement the changes of L and of
-B turn it: \f$ \lambda_{jk} Y_j^T \widetilde B Y_k \f$ is subtracted from the product in h, with the
-mean of both Rayleigh quotients. That P Phi moves as well is seen at the next call.
+Between two calls of `refresh()` Y stays. To first order in the movement the changes of L and of B
+would rotate it. So \f$ \lambda_{jk} Y_j^T \widetilde B Y_k \f$ is subtracted from the product in h,
+with the mean of both Rayleigh quotients. The movement of P Phi is seen at the next call.
 */
 class Low_mode_term
 {

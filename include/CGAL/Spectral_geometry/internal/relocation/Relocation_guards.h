@@ -40,7 +40,7 @@ public:
   Relocation_guards(const Positions& given, const Positions& V, const Eigen::MatrixXi& T,
                     const Positions& anchors, const Relocation_limits& limits, const int threads)
     : m_T(T)
-    // The rounding of what is legal only just must not make the start illegal; nor below.
+    // Rounding must not make a start illegal that is only just legal; likewise below.
     , m_largest_turn_cosine((std::min)(std::cos(limits.largest_turn), 1 - 1e-12))
     , m_anchors(anchors)
     , m_fixed(std::size_t(V.rows()), false)
@@ -132,7 +132,7 @@ public:
     admit_without_projection(from, to);
   }
 
-  /// Does so where single vertices are known to be allowed where they are.
+  /// As admit(), if the position of every single vertex is known to be allowed.
   void admit_without_projection(const Positions& from, Positions& to) const
   {
     std::vector<char> offends(std::size_t(to.rows()), 0);
@@ -231,7 +231,7 @@ private:
   std::vector<bool> m_fixed;
   std::vector<std::vector<Boundary_segment>> m_boundary;
   Leaps m_leaps;
-  mutable std::vector<Held> m_held_by; // of each vertex, 1 for what it was asked not to do, ever
+  mutable std::vector<Held> m_held_by; // of each vertex, 1 for every guard that has ever held it
   Eigen::VectorXd m_radius, m_smallest_angle; // of each vertex; of each triangle, what is allowed
   int m_threads;
   std::vector<Eigen::Vector3d> m_normal;

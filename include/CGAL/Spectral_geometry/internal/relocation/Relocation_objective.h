@@ -102,8 +102,8 @@ private:
   std::vector<Eigen::RowVectorXd> m_rows; // of a fine vertex, once read: that of F, then of Z
 };
 
-/// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a
-/// tolerance: a penalty that begins at half of it, steep enough to end before its whole.
+/// Keeps area and volume between those of the coarse and of the fine mesh, up to a tolerance. The
+/// penalty begins at half the tolerance and is steep enough to end the descent before the whole.
 class Size_bounds
 {
 public:
@@ -140,7 +140,7 @@ public:
            (!m_closed || std::abs(m_volume.beyond(volume)) <= m_tolerance);
   }
 
-  /// `weight` is the objective at the start, in parts of which it is measured; adds its gradient.
+  /// The value, scaled by `weight`, the objective at the start; adds its gradient.
   double penalty(const Positions& V, const double weight, Positions& gradient) const
   {
     const auto [area, volume] = measure(m_T, V);
@@ -162,7 +162,7 @@ public:
   }
 
 private:
-  // What the coarse mesh has at the start, and how far the fine one lies from it, in parts of that.
+  // The value of the coarse mesh at the start; relative changes from there to the fine mesh.
   struct Range
   {
     double from, low, high;
@@ -174,8 +174,8 @@ private:
     }
   };
 
-  // Where the meshes are far apart (a few vertices, or an offset) that of the fine one is not to be
-  // reached at any price.
+  // If the meshes are far apart (a few vertices, or an offset), the coarse mesh need not reach the
+  // value of the fine one.
   static Range range(const double coarse, const double fine)
   {
     const double change = std::clamp(fine / coarse - 1, -0.1, 0.1);
@@ -287,9 +287,9 @@ public:
   }
 
 private:
-  // So large a difference, in parts of the sum of squares, costs as much as all does at the start.
+  // A difference of this size, relative to the sum of squares, costs as much as all at the start.
   // With 0.015 biharmonic distances are 1.02 times as far off (nine meshes). Filtered noise has no
-  // goals of eigenvalues: there 0.015 takes |C|_L to 1.06 times what it is with 0.022 (seventeen).
+  // goals for eigenvalues: there |C|_L with 0.015 is 1.06 times that with 0.022 (seventeen).
   static constexpr double inner_product_error = 0.013, inner_product_error_without_goals = 0.022;
 
   Relocation_energy m_E, m_S; // E alone; what is minimised

@@ -23,19 +23,19 @@ With eigenvalues of the fine mesh, the weighted mean square of their relative er
 \widetilde\lambda_k / \lambda_k - 1 \f$
 \f[ \frac{1}{\epsilon^2} \sum_{k \le K} w_k e_k^2 \Big/ \sum_{k \le K} w_k, \qquad
    w_k = 1 + 50 \lambda_2 / \lambda_k. \f]
-E weighs mode k by \f$ \lambda_k^2 \f$ and leaves low modes to chance. Only as many modes take part
-as a sixth of the vertices: linear elements hardly have the others. With more than ten vertices for
-each of the K modes they err less, and epsilon falls as \f$ (10 K / N)^{2/3} \f$.
+E weighs mode k by \f$ \lambda_k^2 \f$ and leaves low modes to chance. The number of modes is at
+most a sixth of that of vertices: linear elements hardly represent the others. With more than ten
+vertices per mode (of K) errors are smaller, and epsilon falls as \f$ (10 K / N)^{2/3} \f$.
 
 The modes after these, up to 1.5 K, would fall, see `relocate_positions()`. They are too low
 already: with the averaged mass the leading error of the elements is \f$ -x^2 / 461 \f$ of the
-eigenvalue, see `commutativity_floor()`. Their mean is to rise as far as it is below that of the
-fine mesh, where some of its eigenvalues there are known; otherwise it is not to fall.
+eigenvalue, see `commutativity_floor()`. Their mean should rise to that of the fine mesh if some of
+its eigenvalues there are known; otherwise it should not fall.
 
-Between two calls of `refresh()` the eigenvectors stay, and an eigenvalue is their Rayleigh
-quotient: right to the first order in the movement, and never below by its sum over all modes up to
-the last. Within a cluster the eigenvectors may turn; only the sum of its eigenvalues is smooth, and
-only that matters here, since they have nearly one goal.
+Between two calls of `refresh()` the eigenvectors are fixed and eigenvalues are their Rayleigh
+quotients. These are right to first order in the movement; their sum over all modes up to the last
+is never too low. Within a cluster the eigenvectors may rotate; only the sum of its eigenvalues is
+smooth. Nothing else matters here, since they have nearly one goal.
 */
 class Spectrum_term
 {
@@ -88,8 +88,7 @@ public:
   /// Whether eigenvalues of the fine mesh are among what it knows.
   bool has_goals() const { return is_active() && m_goals.size() != 0; }
 
-  /// The eigenvectors of the mesh as it is now: from those before by a step of inverse iteration on
-  /// all of them.
+  /// Updates the eigenvectors to the current mesh, by a step of inverse iteration on all of them.
   void refresh(const Positions& V)
   {
     if(!is_active())
@@ -126,7 +125,7 @@ public:
     return m_entries.mass.sum() * m_stiffness / (m_norm * m_reference) - 1;
   }
 
-  /// `weight` is the objective at the start, in parts of which it is measured; adds its gradient.
+  /// The value, scaled by `weight`, the objective at the start; adds its gradient.
   double penalty(const Positions& V, const double weight, Positions& gradient)
   {
     const Row change = changes(V);
@@ -154,8 +153,8 @@ public:
 
 private:
   // A mean that misses its aim by the width costs as much as all does at the start: twice the aim,
-  // so that large errors are lowered and small ones do not grow. With three times the aim errors
-  // from K to 1.5 K are 1.14 times as large, those of low modes 0.96 times.
+  // from 0.01 to this, so that large errors are lowered and small ones do not grow. With three
+  // times the aim errors from K to 1.5 K are 1.14 times as large, those of low modes 0.96 times.
   static constexpr double largest_width = 0.1;
 
   // It is above zero, so that eigenvectors that are not up to date do no harm.
@@ -172,7 +171,7 @@ private:
   // meshes); with the consistent mass 0.48 and 0.90 times. The power 1 gains no more.
   static constexpr double finer = 10;
 
-  // On one thread. No result depends on how many threads there are.
+  // The columns of one task. No result depends on the number of threads.
   static constexpr Index columns_at_once = 16;
 
   // False where there are but zeros.
@@ -246,8 +245,8 @@ private:
     return true;
   }
 
-  // What the entries do to sum_i slope_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the
-  // change was taken last.
+  // The derivatives of sum_i slope_i A q_i / reference_i by the entries, q_i = stiffness_i /
+  // norm_i, at the positions of the last changes().
   Operator_geometry::Entries derivatives_of_changes(const Row& slope) const
   {
     Operator_geometry::Entries d = m_geometry.zero_entries();

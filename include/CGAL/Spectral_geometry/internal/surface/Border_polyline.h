@@ -13,7 +13,7 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// The border of a mesh, which is kept by reference, to be asked for what is near.
+/// Proximity queries on the border of a mesh, which is kept by reference.
 class Border_polyline
 {
 public:
@@ -53,7 +53,7 @@ public:
   /// The number of the closed curve that a piece belongs to.
   Eigen::Index loop(const std::size_t s) const { return m_loop[m_segments[s].first]; }
 
-  /// The curves that each row of a restriction has vertices of.
+  /// For each row of a restriction, the border curves that its vertices lie on.
   std::vector<std::set<Eigen::Index>> loops_of_rows(const Eigen::SparseMatrix<double>& P) const
   {
     const std::vector<char> on_border = border_vertices(m_mesh.T, m_mesh.V.rows());

@@ -12,10 +12,10 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /*!
- * A binary tree of boxes, one leaf for each item, in which single boxes change: O(log n) each, and
- * which is asked for what is near. CGAL's AABB tree and Boost's R-tree would be built anew or
- * restructured at every collapse; here leaves stay where the first boxes put them: halves by the
- * median of their centres along the longest side, however unevenly these lie.
+ * A binary tree of boxes for proximity queries, with one leaf for each item. Changing a single box
+ * takes O(log n). CGAL's AABB tree and Boost's R-tree would be built anew or restructured at every
+ * collapse; here leaves stay where the first boxes put them. Boxes are halved by the median of
+ * their centres along the longest side, however unevenly the centres lie.
  */
 class Box_tree
 {
@@ -61,8 +61,8 @@ public:
     }
   }
 
-  /// Whether `found(item)` is true for an item below a node, the root at first, whose box meets
-  /// this one; looks no further then.
+  /// Whether `found(item)` is true for an item below `node` whose box meets this one. Stops at the
+  /// first such item.
   template <class Found>
   bool any(const Box& box, const Found& found, const std::size_t node = 1) const
   {
@@ -73,9 +73,9 @@ public:
     return any(box, found, 2 * node) || any(box, found, 2 * node + 1);
   }
 
-  /// Calls `visit(item)` for items below a node, the root at first, whose boxes are nearer to `p`
-  /// than the root of `bound`, which `visit` lowers; near boxes first. That of an item that is
-  /// alone in the tree is not looked at.
+  /// Calls `visit(item)` for items below `node` whose boxes are nearer to `p` than the square root
+  /// of `bound`, which `visit` lowers; near boxes first. The box of a single item in the tree is
+  /// not tested.
   template <class Visit>
   void visit_near(const Eigen::Vector3d& p, const double& bound, const Visit& visit,
                   const std::size_t node = 1) const

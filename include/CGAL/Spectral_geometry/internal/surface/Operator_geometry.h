@@ -103,8 +103,8 @@ public:
     return true;
   }
 
-  /// Adds the gradient of a function of the matrices, whose derivatives with respect to their
-  /// entries are given. That for an edge counts both entries, and for L what it does to the
+  /// Adds the gradient of a function of the matrices, given its derivatives with respect to their
+  /// entries. The derivative for an edge covers both entries, and for L also the effect on the
   /// diagonal.
   void add_gradient(const Entries& d, const Positions& V, Positions& gradient) const
   {
@@ -203,7 +203,7 @@ private:
     }
   }
 
-  // cot_k = -r_{k+1} . D r_{k+2} / |m| with m = e_0 x e_1 and r_k = m / |m| x e_k, backwards.
+  // Reverse mode: cot_k = -r_{k+1} . D r_{k+2} / |m| with m = e_0 x e_1, r_k = m / |m| x e_k.
   static void add_gradient_of_conductivity(const Triangle& t, const Eigen::Vector3d (&edge)[3],
                                            const Point_coefficients& mean,
                                            const Triangle_element& element,

@@ -15,20 +15,21 @@ namespace CGAL::Spectral_geometry::internal {
 /// Rows of P that were followed on the surface.
 struct Followed_rows
 {
-  Eigen::SparseMatrix<double> P; ///< with those rows found anew that were off
-  std::vector<Eigen::Index> off; ///< these rows
+  Eigen::SparseMatrix<double>
+      P; ///< with those rows found anew that read functions off another part
+  std::vector<Eigen::Index> off; ///< rows whose feet those of their neighbours do not reach
 };
 
 /*!
 Finds the rows of P, of whatever origin, that read functions off another part of the body. A coarse
 edge is torn where the feet of its ends, P V, lie further apart on the fine surface than three times
-what their distance in space accounts for. Which end is wrong, and how far the wrong rows reach into
-an armpit, where no edge is torn, say the normals: sheets that face each other have opposite ones.
+what their distance in space accounts for. Normals tell which end is wrong, and how far wrong rows
+reach into an armpit, where no edge is torn: sheets that face each other have opposite ones.
 
-So the ends of torn edges and the vertices whose feet have a normal of the other side are in doubt.
-In each component of the coarse mesh the largest group of the others, held together by edges, is
-right. From there on vertex after vertex is asked whether its foot can be reached from those of its
-neighbours; one whose foot cannot, or has the wrong normal, gets the closest point of what can.
+So the ends of torn edges are in doubt, and vertices whose feet have a normal of the other side. In
+each component of the coarse mesh the largest edge-connected group of the others is right. From
+there on each vertex is tested in turn: can its foot be reached from those of its neighbours? If
+not, or if its normal is wrong, it gets the closest point of what can be reached.
 */
 class Row_follower
 {
@@ -190,8 +191,8 @@ private:
     return result;
   }
 
-  // Normals of the coarse vertices, turned where most of a component say that the meshes are
-  // oriented unlike each other.
+  // Normals of the coarse vertices, reversed in components of which the majority says that the
+  // meshes are oriented oppositely.
   void set_sides()
   {
     m_normals = normals(m_coarse);
@@ -253,7 +254,7 @@ private:
     return result;
   }
 
-  // False if the row was off.
+  // False if the foot of v cannot be reached.
   bool settle(const int v, const std::vector<char>& settled)
   {
     std::vector<int> sources;

@@ -13,11 +13,11 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /*!
-Which places of a fine and of a coarse surface belong together, so that a closest point is not found
-on another part of the body that lies in the way. Each fine vertex goes with the coarse vertex whose
-row of P is nearest to it on the surface; a coarse vertex may have its closest point where the fine
-vertices go with one at most two edges away from it, and the other way round. Two edges, since the
-regions of one edge end where a vertex that is moved may go.
+Tells which places of a fine and of a coarse surface correspond, so that a closest point is not
+found on another part of the body that is nearer. Each fine vertex is assigned to the coarse vertex
+whose row of P is nearest along the surface. A coarse vertex may have its closest point where fine
+vertices are assigned to coarse ones at most two edges away, and vice versa. With one edge, regions
+would end within the reach of a moving vertex.
 */
 class Surface_regions
 {
@@ -93,8 +93,8 @@ public:
   }
 
 private:
-  // A fine face where the row of a coarse vertex is, and the coarse vertex that this place goes
-  // with: another one where rows share it.
+  // A fine face at the row of a coarse vertex, and the coarse vertex that this place is assigned
+  // to: another one if several rows share the place.
   struct Home
   {
     Eigen::Index face = -1;
@@ -170,9 +170,9 @@ private:
   std::vector<Home> m_home; // by coarse vertex
 };
 
-/// Closest points of coarse vertices that move. A descent asks for the place where a vertex is and
-/// for the one where it may go several times each: both are remembered, and the search for the next
-/// begins at them. Different vertices may be asked about at a time.
+/// Closest points of moving coarse vertices. A descent asks several times each for the place of a
+/// vertex and for its next place. Both answers are remembered, and the next search begins at them.
+/// Different vertices may be asked about concurrently.
 class Followed_closest_points
 {
 public:
@@ -207,7 +207,7 @@ public:
     return ((*this)(v, to).point - start).norm() > 3 * (to - from).norm();
   }
 
-  /// Whether a face that v may not use is nearer: a closest point that knows no parts is there.
+  /// Whether a face that v may not use is nearer: a search without regions would find that face.
   bool is_beside_another_part(const Eigen::Index v, const Eigen::Vector3d& p)
   {
     return !(*this)(v, p).is_nearest;

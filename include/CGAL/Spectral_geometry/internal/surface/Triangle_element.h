@@ -10,8 +10,8 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Returns, for a triangle with the edges p, then q from where that ends, and `sum` = p + q, at
-/// each corner the product of the edges that leave it, and |p x q|^2. Edges are whatever has three
+/// For a triangle with consecutive edges p and q, and `sum` = p + q: returns at each corner the
+/// inner product of the edges that leave it, and |p x q|^2. An edge is any type with three
 /// coordinates.
 template <class Edge>
 CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Edge& q, const Edge& sum,
@@ -39,7 +39,7 @@ struct Triangle_element
   double dot[3]; ///< of the two edges that leave the corner
   double twice_area;
 
-  /// To rounding. Such a triangle contributes nothing.
+  /// Whether the area is 0 up to rounding. Such a triangle contributes nothing.
   bool is_degenerate() const { return !(twice_area > 0); }
 };
 
@@ -92,7 +92,7 @@ inline double density(const std::optional<Point_coefficients>& mean)
   return mean ? (*mean)[0] : 1.;
 }
 
-/// L is measured in this; it is 1 without coefficients.
+/// The unit of L; 1 without coefficients.
 inline double mean_conductivity(const Operator_coefficients& c)
 {
   return c.rows() == 0 ? 1. : (c.col(1) + c.col(4) + c.col(6)).mean() / 3;
@@ -124,10 +124,10 @@ inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3],
   return t;
 }
 
-/// The part of a triangle's area that goes to its corner of cotangent c, a and b being those of the
-/// others: its Voronoi region, or in an obtuse triangle half or a quarter (Meyer et al. 2003,
-/// section 3.3). A common factor of the three does not matter: for an operator with a conductivity
-/// these are regions in its metric.
+/// The share of a triangle's area that goes to the corner of cotangent c; a and b belong to the
+/// other corners. It is the Voronoi region, or in an obtuse triangle half or a quarter (Meyer et
+/// al. 2003, section 3.3). A common factor of the three does not matter: for an operator with a
+/// conductivity these are regions in its metric.
 inline double mixed_voronoi_share(const double c, const double a, const double b)
 {
   if(c < 0)

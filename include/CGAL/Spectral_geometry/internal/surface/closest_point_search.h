@@ -24,10 +24,10 @@ struct Point_of_triangle
 /// face without area is the union of its edges, a face without extent a point. The kernel's
 /// projection goes through the normal.
 ///
-/// `best` is the first corner. `lengths`, squared, of the edges, the i-th of which leads from
-/// corner i to the next; `along`: its inner product with the way from corner i to the query. `ab`
-/// and `bq` are inner products of b, from the first corner to the last, with the first edge and
-/// with the way to the query.
+/// `best`: the first corner. `lengths`: squared, of the edges; edge i leads from corner i to the
+/// next. `along`: the inner product of edge i with the way from corner i to the query. `ab` and
+/// `bq`: the inner products of b, from the first corner to the last, with the first edge and with
+/// the way to the query.
 template <class Squared_distance>
 Point_of_triangle closest_of_projections(Point_of_triangle best, const Eigen::Vector3d& lengths,
                                          const Eigen::Vector3d& along, const double ab,
@@ -73,9 +73,9 @@ inline Point_of_triangle closest_point_of_triangle(const Eigen::Vector3d& query,
       [&](const Eigen::Vector3d& weights) { return (triangle * weights - query).squaredNorm(); });
 }
 
-/// Finds it in a space of any dimension, from squared distances alone: d of the query from the
-/// corners, l of the edges. Exact to the rounding of the d, which is too little for a query that is
-/// all but on the triangle: a point has to be closer than that to win against a corner.
+/// Works in any dimension, from squared distances alone: d of the query from the corners, l of the
+/// edges. Exact to the rounding of d. This does not suffice for a query almost on the triangle: a
+/// point must be closer by more than that to win against a corner.
 inline Point_of_triangle closest_point_of_triangle_by_distances(const Eigen::Vector3d& d,
                                                                 const Eigen::Vector3d& l)
 {
@@ -95,7 +95,7 @@ public:
   {
     Eigen::Index face;
     Eigen::Vector3d weights, point;
-    bool is_nearest; // of all faces, also of those that may not be, but for rounding
+    bool is_nearest; // whether no excluded face is nearer, up to rounding
   };
 
   explicit Closest_point_query(const Mesh_matrices& surface)
@@ -143,7 +143,7 @@ private:
   Box_tree m_tree;
 };
 
-/// The matrix of which row i, of `rows`, reads functions off at `answer(i)`, a closest point of the
+/// The matrix whose row i, of `rows`, interpolates functions at `answer(i)`, a closest point of the
 /// surface.
 template <class Answer_of>
 Eigen::SparseMatrix<double> interpolation(const Mesh_matrices& surface, const Eigen::Index rows,

@@ -46,9 +46,9 @@ inline std::vector<Eigen::Index> connected_components(const Eigen::Index n,
   });
 }
 
-/// Items, sorted by the vertices from 0 to n - 1 that they belong to, and by `<` among those of one
-/// vertex: linear where few items belong to one. `for_each` calls its argument with vertex and item
-/// of each, twice.
+/// Sorts items by the vertex, 0 to n - 1, that they belong to, and by `<` within a vertex: linear
+/// if each vertex has few items. `for_each` is called twice and calls its argument with vertex and
+/// item of each.
 template <class Item, class For_each>
 std::vector<Item> sorted_by_vertex(const std::size_t n, const For_each& for_each)
 {
@@ -121,9 +121,9 @@ public:
     return {m_items.innerIndexPtr() + start[0], m_items.innerIndexPtr() + start[1]};
   }
 
-  /// Whole rings of vertices around v, which comes first, until there are so many; only some
-  /// neighbours of a hub, spread over all: a fan would hand all of its vertices to each. `seen` has
-  /// been zero everywhere, and is again.
+  /// The vertices around v, ring by ring, until there are at least `wanted`; v comes first. A hub
+  /// adds only some neighbours, evenly chosen: a fan would give all of its vertices to each. `seen`
+  /// must be zero everywhere, and is zero again afterwards.
   std::vector<int> around(const int v, const std::size_t wanted, std::vector<char>& seen) const
   {
     constexpr std::size_t most_of_a_hub = 64;

@@ -56,8 +56,8 @@ inline bool lie_on_one_side(const Corners& s, const Corners& t, const std::size_
   return true;
 }
 
-/// triangles_intersect() for triangles whose first `common` vertices are common, without the first
-/// look.
+/// triangles_intersect() without its quick test, for triangles that share their first `common`
+/// vertices.
 CGAL_SPECTRAL_GEOMETRY_INLINE bool triangles_intersect_exactly(const Corners& s, const Corners& t,
                                                                std::size_t common);
 

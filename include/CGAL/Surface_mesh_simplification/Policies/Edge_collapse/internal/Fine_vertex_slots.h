@@ -60,9 +60,9 @@ private:
   typename boost::property_map<TriangleMesh, dynamic_vertex_property_t<Eigen::Index>>::type m_map;
 };
 
-/// The dynamic properties of a `Surface_mesh` are removed from it when their map is destroyed, and
-/// are lost without notice when it is assigned to. So this is a property with a name, which is
-/// looked up; what nobody uses any more goes when the next one is made.
+/// A `Surface_mesh` loses a dynamic property when its map is destroyed, and without notice when a
+/// mesh is assigned to it. So this is a named property, which is looked up. Properties that nobody
+/// uses any more are removed when the next one is made.
 template <class Point>
 class Vertex_slot_map<Surface_mesh<Point>>
 {
@@ -102,7 +102,7 @@ public:
   void set(const vertex_descriptor v, const Eigen::Index number) { m_map[v].value = number; }
 
 private:
-  // Not a number: what writes all properties of a mesh that it knows the types of leaves it out.
+  // Not a plain number: code that writes all properties of known types then leaves it out.
   struct Number
   {
     Eigen::Index value = 0;

@@ -41,9 +41,9 @@ struct Spectral_basis
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
                                                           Eigen::Index n);
 
-/// Relocation sees so many mixtures at least, or signals of filtered noise, which are made for it
-/// and the collapses together. With 32 it takes five sixths of the time, and |C|_L is 1.04 times as
-/// large, of noise 1.06 times.
+/// The least number of mixtures in relocation, or of signals of filtered noise, which are made for
+/// it and the collapses together. With 32 relocation takes five sixths of the time, and |C|_L is
+/// 1.04 times as large, with noise 1.06 times.
 constexpr Eigen::Index mixtures_of_relocation = 64;
 
 /// Whether signals are made of noise.
@@ -108,9 +108,9 @@ inline Eigen::VectorXd spectral_weights(const Spectral_options& options, const E
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
 spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F);
 
-/// Z = F Lambda needs converged pairs: E of the fine mesh must be 0 beside what collapses add. Here
-/// it is at most 1e-10 of sum lambda_k^2, a millionth of what a thousand collapses cost. Rougher
-/// pairs get a Z = B^-1 L F of its own.
+/// Z = F Lambda needs converged pairs: E of the fine mesh must be negligible beside what collapses
+/// add. With this bound it is at most 1e-10 of sum lambda_k^2, a millionth of what a thousand
+/// collapses cost. For rougher pairs Z = B^-1 L F is computed.
 inline bool pairs_are_rough(const Eigen::VectorXd& residuals)
 {
   return residuals.size() != 0 && residuals.maxCoeff() > 1e-5;
@@ -129,9 +129,9 @@ inline bool pairs_are_rough(const Eigen::VectorXd& residuals)
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd random_mixtures(Eigen::Index rows, Eigen::Index r,
                                                               std::uint64_t seed);
 
-/// The mixtures of the signals of positive weight, each multiplied by the square root of that; all
-/// of these signals where there are no more than `Spectral_options::number_of_mixtures`. R has a
-/// row for every signal.
+/// R for the signals of positive weight, each multiplied by the square root of its weight. They are
+/// mixed only if there are more than `Spectral_options::number_of_mixtures`. R has a row for every
+/// signal.
 inline Eigen::MatrixXd mixing_matrix(const Spectral_options& options,
                                      const Eigen::VectorXd& weights)
 {
@@ -348,8 +348,8 @@ inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& 
   return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
-/// Whether no eigenvalue is further from 0 than its residual, within which there is an exact one: K
-/// = 1 on a mesh with needles, where the solver may leave a lambda of 1e-5 for 0.
+/// Whether no eigenvalue is further from 0 than twice its residual: an exact one lies within one.
+/// With K = 1 and needles the solver may return a lambda of 1e-5 for 0.
 inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& op,
                                      const Spectral_geometry::Eigenpairs& pairs,
                                      const Eigen::VectorXd& residuals)
@@ -366,8 +366,8 @@ inline bool is_rounding(const double sum_of_squares, const double norm_of_F, con
   return !(sum_of_squares > rounding * rounding * norm_of_F);
 }
 
-/// The residuals of ready pairs. Refuses pairs that are not those of this mesh: their residuals
-/// must be small, or the very ones that they came with, as those of rough pairs are.
+/// The residuals of given pairs. Refuses pairs of another mesh: residuals must be small, or equal
+/// to those that came with the pairs, as for rough pairs.
 inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pairs,
                                          const Spectral_geometry::Laplace_operator& op,
                                          const Spectral_geometry::Mass mass, const int threads)

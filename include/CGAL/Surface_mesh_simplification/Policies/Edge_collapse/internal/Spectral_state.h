@@ -151,9 +151,9 @@ public:
     m_selection_open = false;
   }
 
-  /// Remembers which slots are merged, and with which weight: afterwards some mesh types have freed
-  /// the removed vertex, and the point of the kept one has changed. Throws `std::logic_error` for a
-  /// point of a wrapper that nobody has looked at: no callback but a filter can refuse it.
+  /// Records which slots are merged, and with which weight: after the collapse some mesh types have
+  /// freed the removed vertex, and the kept one has moved. Throws `std::logic_error` if a wrapper
+  /// chose the point, no filter was asked, and vertices are kept or self-intersections refused.
   template <class Profile, class OptionalPoint>
   void on_collapsing(const Profile& profile, const OptionalPoint& placement)
   {
@@ -190,9 +190,9 @@ public:
     m_core.commit(m, to_vector(get(m_vpm, kept_vertex)), ring_of(kept_vertex));
   }
 
-  /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was
-  /// selected, this is the best of the mesh as it is: a collapse two rings away, after which CGAL
-  /// does not ask again, may have moved it.
+  /// The placement of a candidate; no point if it cannot be collapsed. For a selected candidate it
+  /// is the best one on the current mesh: a collapse two rings away, after which CGAL does not ask
+  /// again, may have changed it.
   template <class Profile>
   auto placement(const Profile& profile)
   {
@@ -214,9 +214,9 @@ public:
     return Optional_point(Point(FT(c.point.x()), FT(c.point.y()), FT(c.point.z())));
   }
 
-  /// cost(e) = sum over H of E_w after - E_w before, at the point given, and with
-  /// `Spectral_options::shape` what is said there. The largest finite number where there is none:
-  /// an absent cost would be sorted first by CGAL's queue.
+  /// cost(e) = sum over H of E_w after - E_w before, at the given point, plus the term of
+  /// `Spectral_options::shape`. The largest finite number if there is none: CGAL's queue would sort
+  /// an absent cost first.
   template <class Profile, class OptionalPoint>
   auto cost(const Profile& profile, const OptionalPoint& placement)
   {
@@ -259,12 +259,12 @@ public:
     return relative_error(error() + m_core.change_at(v, u, weight_of(u, v, point), point));
   }
 
-  /// Whether a filter lets a placement through: not one that would move a vertex to be kept, or
-  /// merge two of them, and none of a wrapper that would put a face through another.
+  /// Whether a filter accepts a placement. It refuses one that would move a kept vertex or merge
+  /// two of them, and one of a wrapper that would put a face through another.
   template <class Profile, class OptionalPoint>
   bool lets_through(const Profile& profile, const OptionalPoint& placement)
   {
-    // CGAL has got as far as to ask, whether or not a wrapper has asked our own placement.
+    // CGAL has reached the filter, whether or not a wrapper has called our own placement.
     m_placement_found = m_filter_asked = true;
     if(!placement)
       return false;
@@ -325,10 +325,10 @@ public:
   /// Whether a wrapper of the placement has chosen points of its own.
   bool has_foreign_points() const { return m_has_foreign_points; }
   bool knows_constraints() const { return m_knows_constraints; }
-  /// For each of `vertices(mesh)` whether it has to stay where it is after the collapses: one that
-  /// is kept, or the end of a constrained edge; none where none has.
+  /// For each of `vertices(mesh)` whether it must not move after the collapses, as a kept vertex or
+  /// the end of a constrained edge. Empty if there are none.
   std::vector<bool> fixed_vertices() const { return flags_now(m_fixed); }
-  /// Vertices that are kept with their row of P; none where none is.
+  /// For each of `vertices(mesh)` whether it is kept with its row of P. Empty if there are none.
   std::vector<bool> kept_vertices() const { return flags_now(m_core.fields().kept); }
   std::size_t number_of_runs() const { return m_number_of_runs; }
   /// E of the current mesh. What is left of 0 after sums and differences is never negative.
@@ -354,8 +354,8 @@ public:
   }
 
 private:
-  // The last way to collapse an edge that was asked for, of u < v. It holds until the mesh changes
-  // or an edge is selected.
+  // The last answer: how to collapse the edge u < v. It is valid until the mesh changes or an edge
+  // is selected.
   struct Answer
   {
     Slot u = 0, v = 0;
@@ -372,7 +372,7 @@ private:
 
   Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }
 
-  // None for an edge that has been answered for: its cost is that of now.
+  // None for an edge with a valid answer: its cost is up to date.
   std::optional<double> postponed_cost(const Slot u, const Slot v) const
   {
     return m_selecting || is_answered(u, v)
@@ -416,14 +416,14 @@ private:
     return is_answered(u, v) && m_answer.sample->collapsible() && m_answer.sample->point == point;
   }
 
-  // What is fixed goes on with whichever of both handles the mesh keeps.
+  // The merged vertex is fixed if one of the two was, whichever handle the mesh keeps.
   void follow_fixed(const Merge& m)
   {
     if(!m_fixed.empty() && m_fixed[m.removed])
       m_fixed[m.kept] = true;
   }
 
-  // Flags of slots as those of `vertices(mesh)`; none of none.
+  // Flags of slots in the order of `vertices(mesh)`; empty if there are none.
   std::vector<bool> flags_now(const std::vector<char>& flags) const
   {
     std::vector<bool> result;
@@ -433,8 +433,8 @@ private:
     return result;
   }
 
-  // The weight of `removed`, where it is merged into `kept` at `point`: as it was costed with that
-  // point, or its projection.
+  // The weight of `removed` when it is merged into `kept` at `point`: that of the answer if it
+  // offered this point, otherwise that of the projection.
   double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
   {
     if(is_own_point(removed, kept, point))

@@ -23,7 +23,7 @@ namespace CGAL::Surface_mesh_simplification::internal {
  * The spectral state without the mesh: signals, R = B Z - L F, mass, E, positions, connectivity and
  * the log of merges, all in slots. It is told what the mesh does and never looks at it.
  *
- * Order of calls: set_basis() once; where collapses come that others choose, set_input() and
+ * Order of calls: set_basis() once; if collapses chosen by others come first, set_input(), then
  * follow() for each of them; set_geometry() at the start of each run; then, in any order,
  * evaluate(), select() or cost_at(), which remember costs and change nothing else, and commit(),
  * which follows one collapse.
@@ -78,7 +78,7 @@ public:
     m_shape.merge(Slot(m.removed), Slot(m.kept));
     m_log.merge(m.removed, m.kept, m.weight, point);
     if(m_fields.is_kept(Slot(m.removed)))
-      m_fields.kept[m.kept] = true; // which of the two goes on in the mesh is not ours to choose
+      m_fields.kept[m.kept] = true; // the mesh decides which of the two remains
     m_fields.signals.merge(m.removed, m.kept, m.weight);
     if(m_fields.vanishes_at(Slot(m.removed)))
       m_fields.vanishing[m.kept] = 1;
@@ -116,8 +116,8 @@ public:
                                                                 : std::nullopt;
   }
 
-  /// Tells the cost under which CGAL's queue has the edge, u < v, where that is not the one of
-  /// evaluate(): with a placement of the user's.
+  /// Records the cost of the edge, u < v, in CGAL's queue if it is not that of evaluate(): with a
+  /// placement of the user's.
   void set_queued_cost(const Slot u, const Slot v, const double cost)
   {
     const auto [at, other] = place_of_cost(u, v);
@@ -151,7 +151,7 @@ public:
   /// weight) f_u + weight f_v. 0 where the edge may not be collapsed.
   double change_at(Slot u, Slot v, double weight, const Eigen::Vector3d& point);
 
-  /// What a collapse to `point` weights v with, see `Spectral_placement_search`.
+  /// The weight of v in a collapse to `point`, see `Spectral_placement_search`.
   double projected_weight(const Slot u, const Slot v, const Eigen::Vector3d& point) const
   {
     return search(u, v).projected_weight(point);
@@ -176,25 +176,25 @@ public:
 
 private:
   static constexpr double recent_cost_decay = 0.998;
-  // Long before the turn of an edge comes that cost so many times more than recent collapses,
-  // others near it will have had it evaluated again; edges of the link change more than those that
-  // lead away from it. With these factors 16 evaluations for each collapse instead of 38, which
-  // saves a quarter of the loop; |C|_L was 1.004 times as large (14 runs).
+  // An edge whose cost exceeds that of recent collapses by such a factor is evaluated again, after
+  // collapses near it, long before its turn. Edges of the link change more than those that lead
+  // away from it. These factors give 16 evaluations per collapse instead of 38, which saves a
+  // quarter of the loop; |C|_L was 1.004 times as large (14 runs).
   static constexpr double outer_postponing_factor = 2, inner_postponing_factor = 8;
-  // An edge whose placement would put a face through another may cost so many times more at another
-  // point than at that placement, or than the latest collapses. Otherwise one vertex swallows what
-  // lies around it, at a thousand times the cost of others. With 4, 8, 16, 32 and 64 |C|_L of 19
-  // runs was 34.7, 34.1, 32.4, 34.8 and 36.8 in the geometric mean.
+  // If the placement of an edge would put a face through another, another point may cost at most
+  // this factor times the cost of that placement or of the latest collapses. Otherwise one vertex
+  // swallows what lies around it, at a thousand times the cost of others. With 4, 8, 16, 32 and 64
+  // |C|_L of 19 runs was 34.7, 34.1, 32.4, 34.8 and 36.8 in the geometric mean.
   static constexpr double crossing_factor = 16;
 
-  // The ends of an edge, u < v: its cost stands in the ring of the first, no hub if one is none.
-  // Where a vertex becomes a hub, it was kept, and the costs of its edges are unknown.
+  // The ends of an edge, u < v, reordered: its cost stands in the ring of the first, which is a hub
+  // only if both are. A vertex that becomes a hub was kept, so the costs of its edges are unknown.
   std::pair<Slot, Slot> place_of_cost(const Slot u, const Slot v) const
   {
     return m_fields.is_hub(u) && !m_fields.is_hub(v) ? std::pair(v, u) : std::pair(u, v);
   }
 
-  // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the
+  // A running sum that compensates for rounding (Neumaier 1974). A plain sum would carry the
   // rounding of the largest E that it has seen, and a needle makes an E that dwarfs the rest for a
   // while.
   struct Sum

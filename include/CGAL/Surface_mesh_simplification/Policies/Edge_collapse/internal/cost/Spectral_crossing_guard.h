@@ -13,11 +13,11 @@
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
- * Tells whether a collapse would put a triangle through another one that it was not through before:
- * ears, mouths and hooves are thin sheets, and their sides are approximated apart from each other.
+ * Tells whether a collapse would make triangles intersect that did not before: ears, mouths and
+ * hooves are thin sheets, and their two sides are approximated independently.
  *
- * Every triangle belongs to the smallest of its slots; a tree of boxes has a leaf for what belongs
- * to each. Before set_geometry() there is none, and nothing crosses.
+ * Every triangle belongs to the smallest of its slots. A tree of boxes has one leaf for the
+ * triangles of each slot. Before set_geometry() there is no tree, and nothing crosses.
  *
  * `Fans`, the connectivity: `for_triangles(w, f)` calls f(a, b) for each triangle (w, a, b),
  * `for_neighbours(w, f)` f(a) for each neighbour of w.
@@ -39,10 +39,9 @@ public:
     m_refusals = points.size() / 20;
   }
 
-  /// Whether the triangles of u and v that are left would cross others once both are at x, which
-  /// none of those around u and v crosses now. Sheets that lie in each other all over, as in scans,
-  /// are not to hold a run up: after so many refusals beside triangles that cross already there are
-  /// no more of these.
+  /// Whether, with both ends at x, the remaining triangles of u and v would cross others that no
+  /// triangle around u and v crosses now. Sheets that coincide all over, as in scans, must not
+  /// block a run: beside triangles that already cross, the number of refusals is limited.
   template <class Fans>
   bool crosses(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
                const Eigen::Vector3d& x)
@@ -98,9 +97,9 @@ private:
            fan_intersects(m_old.data() + m_old_of_u, m_old.size() - m_old_of_u);
   }
 
-  // Whether two of the triangles around a vertex, the first corner of each, intersect. Beyond the
-  // vertex they do only where their directions from it meet: where there are many, a tree of the
-  // boxes of those finds the pairs.
+  // Whether two of the triangles around a vertex, the first corner of each, intersect. They meet
+  // outside of the vertex only if their directions from it do. In a large fan a tree of boxes of
+  // these directions finds the pairs.
   static bool fan_intersects(const Corners* fan, const std::size_t size)
   {
     if(size <= largest_fan_of_pairs) {
@@ -158,7 +157,7 @@ private:
     return box;
   }
 
-  // The triangles of both ends: all as they are, and those that are left as they would be, with
+  // Collects the triangles of both ends: all of them now, and those left after the collapse, with
   // their boxes.
   template <class Fans>
   void collect(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,

@@ -198,8 +198,8 @@ struct Spectral_fields
   std::vector<char> kept;
   double area_scale = 1;         ///< 1 / area of the input, weighted by the density
   bool single_precision = false; ///< whether the mesh stores its points as `float`
-  /// A vertex of more neighbours is a hub: an edge that leads there is costed as if it stayed,
-  /// until its turn comes, for whatever else may become of it changes all of its triangles.
+  /// A vertex with more neighbours is a hub. An edge at a hub is costed as if the hub stayed, until
+  /// its turn comes: anything else would change all triangles of the hub.
   std::size_t largest_degree_of_others = 256;
 
   bool is_hub(const Spectral_slot s) const { return rings[s].size() > largest_degree_of_others; }
@@ -240,7 +240,7 @@ struct Spectral_fields
 
   bool vanishes_at(const Spectral_slot s) const { return !vanishing.empty() && vanishing[s] != 0; }
 
-  /// Three times what the triangle gives to the lumped mass of its centre: its area, where that is
+  /// Three times the share of the triangle in the lumped mass of its centre: its area, if areas are
   /// divided equally.
   double area_of_center(const Spectral_triangle& t) const
   {

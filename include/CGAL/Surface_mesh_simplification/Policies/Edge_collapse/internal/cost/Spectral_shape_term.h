@@ -33,8 +33,8 @@ public:
     return a += b;
   }
 
-  /// Where it is least; not finite where A is singular. Cholesky's A = U^T U, written out: Eigen's
-  /// for this size takes a twentieth of the time in which the smallest program compiles.
+  /// The minimiser; not finite if A is singular. Cholesky's A = U^T U is written out: Eigen's for
+  /// this size takes a twentieth of the compile time of the smallest program.
   Eigen::Vector3d minimiser() const
   {
     const double u00 = std::sqrt(A(0, 0)), u01 = A(0, 1) / u00, u02 = A(0, 2) / u00;
@@ -46,9 +46,9 @@ public:
     return Eigen::Vector3d((y0 - (u01 * x1 + u02 * x2)) / u00, x1, x2);
   }
 
-  /// The plane of a face with a corner p, from which edges lead along a and b, and the planes at
-  /// right angles to it through those of them that are border edges. Nothing for a face without
-  /// area.
+  /// Adds the plane of a face with corner p and the edges a and b from there, and for each border
+  /// edge of these the plane through it at right angles to the face. A face without area adds
+  /// nothing.
   void add_corner(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const bool a_is_border,
                   const Eigen::Vector3d& b, const bool b_is_border)
   {
@@ -67,7 +67,7 @@ private:
   // sigma^2: of the direction of a normal, 0.15 radians. Between 0.1 and 0.25 the norms hardly
   // depend on it; 0.5 shrinks tips.
   static constexpr double variance = 0.0225;
-  // A border edge counts so much beside a face of as much area; 100 is as good, 1 lets it wear off.
+  // Weight of a border edge relative to a face of equal area; 100 is as good, with 1 it wears off.
   static constexpr double border_weight = 10;
 
   // Adds weight ((n.(x - p))^2 + variance |x - p|^2): the expected squared distance to a plane
@@ -97,18 +97,18 @@ private:
  * it spreads vertices evenly. Weights are areas, so that the resolution of the input does not
  * matter.
  *
- * Before set_geometry() it is empty and costs nothing. It also says how much a change of E counts
- * for at most, see `Spectral_options::largest_loss`: a few folds of the input (eyes, nostrils)
- * would never be collapsed otherwise.
+ * Before set_geometry() it is empty and costs nothing. It also limits what a change of E can count,
+ * see `Spectral_options::largest_loss`: otherwise a few folds of the input (eyes, nostrils) would
+ * never be collapsed.
  */
 class Spectral_shape_term
 {
 public:
   bool is_empty() const { return m_quadrics.empty(); }
 
-  /// What makes `Spectral_options::shape` a number without unit: both terms of the cost grow with
-  /// the scale of E, and the shape term, a squared distance times an area, is compared with 1 / n,
-  /// the area that a vertex stands for.
+  /// Makes `Spectral_options::shape` dimensionless. Both terms of the cost grow with the scale of
+  /// E. The shape term, a squared distance times an area, is compared with 1 / n, the area per
+  /// vertex.
   void set_weights(const Spectral_options& options, const double sum_of_squares)
   {
     const double scale = sum_of_squares > 0 ? sum_of_squares : 1.;
@@ -116,13 +116,13 @@ public:
     m_largest_loss = options.largest_loss * scale;
   }
 
-  /// For each unit of mass at the ends of an edge.
+  /// The limit per unit of mass at the ends of an edge.
   double largest_loss() const
   {
     return is_empty() ? std::numeric_limits<double>::infinity() : m_largest_loss;
   }
 
-  /// The planes of a mesh as its rings have it.
+  /// Sets the quadrics to the planes of the mesh that the rings describe.
   void set_geometry(const std::vector<Eigen::Vector3d>& points, const Spectral_rings& rings,
                     const double area_scale)
   {

@@ -21,8 +21,8 @@ constexpr Spectral_slot null_spectral_slot = (std::numeric_limits<Spectral_slot>
 /// The number of signals that lie side by side: 16 doubles fill four vector registers.
 constexpr int spectral_width = 16;
 
-/// What one vertex w has of 16 signals: the rows f_w, z_w and R_w = (B Z)_w - (L F)_w. They begin
-/// undefined, and `set()` writes them all: zeros that were overwritten took 3 % of a run.
+/// The values of 16 signals at a vertex w: the rows f_w, z_w and R_w = (B Z)_w - (L F)_w. They are
+/// not initialised, and `set()` writes them all: zeros that were overwritten took 3 % of a run.
 struct alignas(64) Spectral_block
 {
   Spectral_block() {}

@@ -47,25 +47,25 @@ struct Quadric_collapses
   Collapse_log log;
   /// for each merge the halfedge that leads to the vertex that is kept, or ~ of the one back
   std::vector<int> collapsed;
-  /// for each vertex that is left the one of the input that lay there, or ~ of the merge
+  /// for each remaining vertex the input vertex at its position, or ~ of the merge that moved it
   std::vector<int> place;
-  std::vector<Triangle_arrays::Corner> corners; ///< in the end: the vertex is -1 of faces gone
+  std::vector<Triangle_arrays::Corner> corners; ///< at the end; -1 as vertex if the face is gone
 };
 
 /*!
  * Collapses edges by quadrics alone until `target` vertices are left, or until no edge is left that
  * may be collapsed.
  *
- * The cost of an edge is the least value of the sum of its ends' quadrics, those of the shape term
- * (`Spectral_shape_term`), and its vertex goes where that is taken (M. Garland and P. Heckbert,
- * *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997). Quadrics only grow, so a
- * cost that was computed before its ends changed is a lower bound: the queue holds each edge once
- * and costs are computed anew when they come up, in the order that recomputing all of them would
- * give (to single precision).
+ * The cost of an edge is the minimum of the sum of the quadrics at its ends, those of the shape
+ * term (`Spectral_shape_term`). The merged vertex is placed at the minimiser (M. Garland and P.
+ * Heckbert, *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997). Quadrics only
+ * grow, so a cost computed before the ends changed is a lower bound. The queue holds each edge
+ * once, and its cost is recomputed when it comes up. The order is the same (to single precision) as
+ * if all were recomputed.
  *
- * What is kept of the mesh `quadric_edge_collapse()` says; a needle is a face whose height is below
- * a thousandth of its longest side. Edges without length come first, those between vertices of many
- * neighbours last. O(n log n), deterministic.
+ * See `quadric_edge_collapse()` for what is preserved of the mesh. A needle is a face whose height
+ * is below a thousandth of its longest side. Edges without length come first, edges between
+ * vertices of many neighbours last. O(n log n), deterministic.
  *
  * @param keep_free_of_self_intersections whether no face may go through another in the end, see
  *        `Spectral_crossing_guard`
@@ -100,10 +100,10 @@ quadric_collapses(Triangle_arrays mesh, bool keep_free_of_self_intersections, st
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// What to take from positions (the rows of V, at least one): a point of the mesh along each axis
-/// on which it lies at least eight times as far from the origin as it is long, where nothing would
-/// be left of what quadrics tell apart; 0 on the others. So no point changes by being moved there
-/// and back: such differences of doubles are exact.
+/// The offset to subtract from positions (the rows of V, at least one). Along an axis on which the
+/// mesh lies at least eight times as far from the origin as it is long, it is the coordinate of a
+/// point of the mesh: quadrics would otherwise lose what they tell apart. On other axes it is 0. No
+/// point changes by being moved there and back: such differences of doubles are exact.
 inline Eigen::Vector3d offset_of(const Eigen::MatrixXd& V)
 {
   Eigen::Vector3d offset = V.row(0);
@@ -114,10 +114,10 @@ inline Eigen::Vector3d offset_of(const Eigen::MatrixXd& V)
   return offset;
 }
 
-/// Halfedges by cost, the least first. What is queued is kept in buckets by the leading bits of its
-/// cost. The first of them is sorted when its turn comes, beside a heap of what is added then.
-/// So what comes next is known, and the memory that it needs can be asked for. A run from a million
-/// vertices takes 0.59 times as long as with a heap of all, 0.83 times without asking.
+/// A queue of halfedges, least cost first. Entries are kept in buckets by the leading bits of their
+/// cost. The first bucket is sorted when its turn comes; a heap holds what is added to it then. So
+/// the next entries are known, and their memory can be prefetched. A run from a million vertices
+/// takes 0.59 times as long as with a single heap, 0.83 times without prefetching.
 class Halfedge_queue
 {
 public:
@@ -177,7 +177,7 @@ private:
     return m_sorted.empty() || (!m_added.empty() && m_sorted.back() < m_added.top());
   }
 
-  // Numbers that are not negative are in the order of their bits: the exponent and six more.
+  // Nonnegative numbers are ordered like their bits. A bucket is the exponent and six more bits.
   static std::size_t bucket_of(const float cost)
   {
     if(cost < 0)
@@ -191,7 +191,7 @@ private:
 
   Buckets m_buckets = Buckets(2 + (0x7fffffff >> 17));
   std::size_t m_first = 0, m_size = 0;
-  std::vector<Entry> m_sorted; // of the buckets up to m_first, as what has been added there since
+  std::vector<Entry> m_sorted; // of the buckets up to m_first; m_added has what came later
   std::priority_queue<Entry> m_added;
 };
 
@@ -263,8 +263,8 @@ public:
             std::move(m_mesh.corners)};
   }
 
-  /// Flags the vertices of the input that have become those of faces that intersect, or neighbours
-  /// of these. Returns whether one that is now of such a face was not watched by this run.
+  /// Flags the input vertices that were merged into vertices of intersecting faces or their
+  /// neighbours. Returns whether one that is now in such a face was not watched by this run.
   bool watch_intersections(std::vector<char>& watched) const
   {
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> V(
@@ -314,8 +314,8 @@ public:
   }
 
 private:
-  // A halfedge is not in the queue; refused; in the queue, with the number of collapses before its
-  // cost was computed.
+  // The states of a halfedge: not in the queue; refused; otherwise queued, with the number of
+  // collapses before its cost was computed.
   static constexpr int none = -2, refused = -1;
 
   using Entry = Halfedge_queue::Entry;
@@ -466,7 +466,7 @@ private:
       }
   }
 
-  // The place or the values of a fixed vertex, for those of the other one.
+  // Whether the place or the values of a fixed vertex would become those of the other one.
   bool would_change(const int fixed, const int other) const
   {
     return m_mesh.fixed[fixed] &&
@@ -498,7 +498,7 @@ private:
     return common == faces;
   }
 
-  // The faces around u other than those of the edge uv, when u moves to x.
+  // Whether the faces around u, but for those of the edge uv, keep their shape if u moves to x.
   bool keeps_shape(const int u, const int v, const Eigen::Vector3d& x) const
   {
     bool result = true;
@@ -641,9 +641,9 @@ Quadric_collapses quadric_collapses(Triangle_arrays mesh,
                                     const std::size_t target,
                                     const std::function<void(std::size_t)>& progress)
 {
-  // To look for intersections at each collapse takes five times as long as the collapses: all is
-  // done once more, with an eye on those that are left in the end, until there are no others. The
-  // fifth run looks everywhere.
+  // To check every collapse for intersections takes five times as long as the collapses. So the run
+  // is repeated, watching only where intersections were left at the end, until there are no others.
+  // The fifth run watches everywhere.
   const std::size_t n = std::size_t(mesh.V.rows());
   std::size_t least = n;
   const auto report = [&](const std::size_t left) {

@@ -29,7 +29,7 @@ struct Pre_simplification
   bool done = false;
   Collapse_log log;
   std::vector<Eigen::Index> slots;        ///< of `vertices(mesh)` afterwards, in that order
-  std::vector<std::size_t> kept_vertices; ///< where those to be kept are in it
+  std::vector<std::size_t> kept_vertices; ///< the indices of kept vertices in `slots`
 };
 
 /// The first stage of `Spectral_edge_collapse_options::pre_simplify` on a mesh of n vertices.
@@ -69,8 +69,8 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   return result;
 }
 
-/// What follows the collapses: `Spectral_edge_collapse_options::relocate`, and the error of what is
-/// left. The log, and what is replayed from it, stay as they are: they end before.
+/// The steps after the collapses: `Spectral_edge_collapse_options::relocate`, and the error of the
+/// result. The log, and what is replayed from it, end before these steps.
 template <class TriangleMesh, class Policies, class NamedParameters>
 class Spectral_post_process
 {
@@ -118,8 +118,8 @@ public:
 private:
   bool is_cancelled() const { return m_result.stop_reason == Result::Stop_reason::cancelled; }
 
-  // The collapses are done: whatever a stage after them throws is a warning, for the mesh and P not
-  // to be lost. What a callback of the user's throws is the user's.
+  // The collapses are done: an exception of a later stage becomes a warning, so that the mesh and P
+  // are not lost. An exception of the user's callback is passed on.
   template <class Stage>
   void attempt(const char* const consequence, const char* const cancelled, const Stage& stage)
   {
@@ -165,10 +165,10 @@ private:
     }
   }
 
-  // E of the input scaled to unit area, as the loop has it, but of all signals. There eigenvectors
-  // are longer by the root of the area, a user's signals are as they were given, and Z is
-  // multiplied by the area. The result is scaled, not the signals, which are large, nor the
-  // positions: far from the origin that would cost digits.
+  // E for the input scaled to unit area, as in the loop, but of all signals. In the loop
+  // eigenvectors are longer by the root of the area, a user's signals are unchanged, and Z is
+  // multiplied by the area. Here the result is scaled: the signals are large, and positions far
+  // from the origin would lose digits.
   void set_error(const SpMat& P)
   {
     const double area = m_state.basis().area;

@@ -116,8 +116,8 @@ struct Component_size
   bool closed = true;
   double area = 0;
 
-  /// What no collapse goes below: 3 vertices, and if closed as many as its handles need, 4 without
-  /// any (Heawood's bound, by Euler's formula).
+  /// The number below which no collapse goes: 3 vertices, or if closed as many as the handles need,
+  /// 4 without handles (Heawood's bound, by Euler's formula).
   std::size_t least() const
   {
     if(!closed || faces == 0) // isolated vertices are refused elsewhere
@@ -127,8 +127,8 @@ struct Component_size
     return (std::min)(vertices, std::size_t(std::ceil(bound - 1e-9)));
   }
 
-  /// With how many a little of the shape is left: collapses of lattices of 1 to 81 handles end at
-  /// some 3.5 for each handle.
+  /// The number of vertices that leaves a little of the shape: collapses of lattices of 1 to 81
+  /// handles end at some 3.5 for each handle.
   std::size_t of_shape() const
   {
     // Negative where sheets meet at a vertex, which is refused elsewhere.
@@ -155,10 +155,10 @@ inline std::vector<Component_size> component_sizes(const Spectral_geometry::Mesh
   return result;
 }
 
-/// The least target that is of use: each component has a little of its shape, and as many vertices
-/// as it has of the modes that the metric sees, which go by area beside one for each. Among many
-/// small components a large one ends as a tetrahedron below. A single component without handles is
-/// as coarse as the target says.
+/// The smallest useful target: each component keeps a little of its shape, and as many vertices as
+/// the metric sees modes of it: one for each component, the others in proportion to area. Below, a
+/// large component among many small ones ends as a tetrahedron. A single component without handles
+/// is as coarse as the target says.
 inline std::size_t useful_target(const std::vector<Component_size>& components,
                                  const Eigen::Index K)
 {
