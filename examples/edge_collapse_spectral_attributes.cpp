@@ -4,10 +4,10 @@
 
 // edge_collapse_spectral_attributes INPUT OUTPUT N
 //
-// Property maps of a `Surface_mesh` on the simplified mesh, by P: colours, normals, and of labels
-// the one of most weight in a row. A visitor that mixes the values of the two vertices at each
-// collapse finds the same, P is the product of these steps: here it does so for the normals, and
-// both are compared. OUTPUT ends in .ply, which holds all of them.
+// P carries property maps of a `Surface_mesh` to the simplified mesh: colours, normals, and labels,
+// by the largest weight in a row. A visitor that mixes the values of the two vertices at each
+// collapse gives the same, because P is the product of these steps. Here it does so for the
+// normals, and both are compared. OUTPUT ends in .ply, which holds all of them.
 
 #include <CGAL/IO/Color.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>

@@ -4,8 +4,8 @@
 
 // edge_collapse_spectral_swap INPUT OUTPUT N [surface_mesh|polyhedron|openmesh]
 //
-// A program with Garland-Heckbert's policies, constrained edges and a filter, and what it becomes
-// with those of the spectrum: the same call of CGAL's, then relocation, on any mesh type.
+// A program with Garland-Heckbert policies, constrained edges and a filter, before and after a
+// change to the spectral policies: the same call of CGAL's, then relocation, on any mesh type.
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polyhedron_3.h>

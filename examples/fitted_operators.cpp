@@ -4,7 +4,7 @@
 
 // fitted_operators INPUT OUTPUT N
 //
-// Simplifies with one call, and chooses a Laplacian and a mass of the coarse mesh that have the
+// Simplifies with one call, and fits a Laplacian and a mass matrix of the coarse mesh to the
 // spectrum of the input.
 
 #include <CGAL/Simple_cartesian.h>

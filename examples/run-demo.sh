@@ -18,7 +18,7 @@ install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libboost-dev \
 
 prefer_ninja "$build"
 prefer_clang "$build"
-# The tests are switched off by not asking for their targets: their settings in an existing folder
+# Tests are skipped by not building their targets, so that their settings in an existing folder
 # stay.
 mkdir -p "$output"
 if [ ! -f "$build/CMakeCache.txt" ]; then

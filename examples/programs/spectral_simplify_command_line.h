@@ -55,9 +55,9 @@ inline Command_line described(Arguments& a)
               "leave out components of less than this share of the area, such as 0.1%, and say "
               "which; they take vertices from the others");
   line.option("keep", a.keep, "LIST",
-              "vertices that stay where they are, words separated by commas: border; sharp:ANGLE, "
-              "edges where the normals of both faces are ANGLE degrees apart, and corners of the "
-              "border; seams of a texture; FILE, one index per line, from 0");
+              "vertices that keep their positions, words separated by commas: border; sharp:ANGLE, "
+              "edges whose face normals are ANGLE degrees apart or more, and corners of the "
+              "border; seams, of a texture; FILE, one index per line, from 0");
 
   line.group("Outputs");
   line.option("restriction", a.restriction, "P.mtx",
@@ -81,24 +81,24 @@ inline Command_line described(Arguments& a)
   line.advanced_group("Each part of a preset (advanced)");
   line.choice(
       "mass", a.mass, words_of(mass_words),
-      "the mass matrix: lumped (paper), the mean of lumped and consistent (best), which keeps the "
-      "eigenvalues of coarse meshes much closer, lumped by mixed Voronoi areas, or consistent");
+      "the mass matrix: lumped (paper); averaged (best), the mean of lumped and consistent, which "
+      "keeps the eigenvalues of coarse meshes much closer; voronoi, lumped by mixed Voronoi areas; "
+      "consistent");
   line.choice("placement", a.placement, words_of(placement_words),
               "where the vertex goes that replaces an edge (best: free, paper: on_edge)");
   line.option("shape", a.shape, "G",
-              "weight of the shape beside the spectrum, which keeps thin limbs (best: 3, paper: "
-              "0); 1 to 10 "
-              "are alike");
+              "weight of the shape term in the cost, which keeps thin limbs (best: 3, paper: 0); 1 "
+              "to 10 are alike");
   line.choice("self-intersections", a.self_intersections, {"allow", "refuse"},
               "collapses that put a face through another (best: refuse, paper: allow)");
   line.choice("relocate", a.relocate, words_of(relocation_words, {"none"}),
               "move the vertices afterwards so that the spectrum is kept still better (best: "
-              "sampled, paper: none), by the functions at the closest points of INPUT, by what "
-              "the restriction carries, or by both. With sampled the restriction interpolates at "
-              "closest points and no longer follows --map");
+              "sampled, paper: none): by the functions at the closest points of INPUT (sampled), "
+              "by what the restriction carries (carried), or by both. With sampled the restriction "
+              "interpolates at closest points and no longer follows --map");
   line.choice("prefer", a.prefer, {"spectrum", "shape"},
-              "what relocation is to keep best (spectrum); with shape the Hausdorff distance is a "
-              "fifth smaller, errors of the spectrum are a tenth larger");
+              "what relocation keeps best, by default the spectrum; with shape the Hausdorff "
+              "distance is a fifth smaller, errors of the spectrum are a tenth larger");
   line.option(
       "quadrics-above", a.quadrics_above, "R",
       "while there are more than R times the vertices of OUTPUT, collapse edges by quadrics alone: "
@@ -110,52 +110,44 @@ inline Command_line described(Arguments& a)
 
   line.advanced_group("What is kept (advanced)");
   line.option("operator", a.operator_word, "OPERATOR",
-              "whose spectrum is kept and judged: cotangent; weighted:W.npy, -div(c grad f) = "
-              "lambda rho f, a "
-              "NumPy array with a row for each vertex of INPUT: c, or rho and c, or rho and a "
-              "tensor xx, xy, "
-              "xz, yy, yz, zz; anisotropic:A, a surface that conducts 1 / (1 + A |k|) in the "
-              "direction of a "
-              "principal curvature k, which is 1 on a sphere of the same area. --eigenpairs writes "
+              "the operator whose spectrum is kept and judged: cotangent; weighted:W.npy, -div(c "
+              "grad f) = lambda rho f, where the NumPy array W.npy has a row for each vertex of "
+              "INPUT: c, or rho and c, or rho and a tensor xx, xy, xz, yy, yz, zz; anisotropic:A, "
+              "with conductivity 1 / (1 + A |k|) in the direction of a principal curvature k, "
+              "which is 1 on a sphere of the same area. --eigenpairs writes "
               "coarse_coefficients.npy as well");
   line.choice("boundary", a.boundary, words_of(boundary_words),
               "boundary condition: neumann (zero normal derivative) or dirichlet (zero value)");
   line.flag("intrinsic-delaunay", a.intrinsic_delaunay,
-            "for an INPUT of needles: take eigenvectors, and judge, on the intrinsic Delaunay "
-            "triangulations "
-            "of INPUT and OUTPUT");
+            "for an INPUT of needle triangles: compute and judge eigenvectors on the intrinsic "
+            "Delaunay triangulations of INPUT and OUTPUT");
   line.option("signals", a.signals, "F.npy",
               "preserve these functions instead of eigenvectors: a NumPy array of float64 or "
               "float32, one row "
               "for each vertex of INPUT");
   line.flag("binary", a.binary, "a restriction of ones and zeros: it picks vertices of INPUT");
-  line.flag("preserve-border", a.preserve_border, "no edge is drawn away from the border");
+  line.flag("preserve-border", a.preserve_border, "no collapse draws a vertex off the border");
   line.option(
       "labels", a.labels_word, "NAMES",
-      "attributes of INPUT whose floating numbers are labels, separated by commas: the one of most "
-      "weight is taken");
+      "names, separated by commas, of attributes of INPUT whose floating-point numbers are labels: "
+      "the label of most weight is taken");
   line.flag(
       "no-attributes", a.no_attributes,
-      "leave behind what INPUT has at its vertices and faces. Otherwise OUTPUT has it as well, "
-      "as far as its format holds it (.ply all, .obj colours, normals, texture coordinates, "
-      "materials "
-      "and groups, .off "
-      "colours and normals, .stl colours of faces): numbers by the restriction, integers that are "
-      "no "
-      "colours as labels, of "
-      "which the one of most weight is taken; what faces have by the area that each face of OUTPUT "
-      "takes over");
+      "do not carry the attributes of vertices and faces. Otherwise OUTPUT has them as well, as "
+      "far as its format holds them (.ply all; .obj colours, normals, texture coordinates, "
+      "materials and groups; .off colours and normals; .stl colours of faces). The restriction "
+      "carries numbers; integers that are no colours are labels, and the one of most weight is "
+      "taken. Attributes of faces go by the area that each face of OUTPUT takes over");
 
   line.advanced_group("Dirty meshes (advanced)");
   line.option(
       "repaired", a.repaired, "FILE",
       "write the mesh that --repair makes: polygons are triangulated, vertices of equal position "
       "merged, cracks closed, degenerate faces removed, sheets that share an edge or a vertex "
-      "separated, borders "
-      "stitched. What leaves the surface as it is needs no option: isolated vertices are left out, "
-      "copies of faces removed, edges without length closed, faces turned round to agree with "
-      "their "
-      "neighbours. Matrices and maps number INPUT's vertices all the same");
+      "separated, borders stitched. Changes that leave the surface as it is need no option: "
+      "isolated vertices are left out, duplicate faces removed, edges of zero length closed, faces "
+      "reoriented to agree with their neighbours. Matrices and maps still number the vertices as "
+      "INPUT does");
   line.strict(a.strict);
 
   line.advanced_group("Operators and interrupts (advanced)");
@@ -165,17 +157,18 @@ inline Command_line described(Arguments& a)
               "at the scale of the meshes as they are");
   line.option(
       "fit-operators", a.fit_operators, "DIR",
-      "choose the entries of a Laplacian and a mass on OUTPUT's vertices so that they have INPUT's "
-      "spectrum as nearly as they can, and write L.mtx, mass.mtx, eigenvalues.npy and "
-      "eigenvectors.npy: for functional maps and spectral distances");
+      "fit the entries of a Laplacian and a mass matrix on OUTPUT's vertices to INPUT's spectrum, "
+      "and write L.mtx, mass.mtx, eigenvalues.npy and eigenvectors.npy: for functional maps and "
+      "spectral distances");
   line.choice("fit-mass", a.fit_mass, {"diagonal", "edges"},
               "where the fitted mass has entries (lumped mass: diagonal, averaged: edges)");
   line.option("fit-rings", a.fit_rings, "1|2",
-              "where the fitted Laplacian has entries: the edges of OUTPUT, or two rings (2)");
+              "where the fitted Laplacian has entries; 1: at the edges of OUTPUT; 2, the default: "
+              "in two rings");
   line.choice(
       "on-interrupt", a.on_interrupt, {"discard", "write"},
-      "what Ctrl-C does once vertices have been removed: write nothing, or what there is, without "
-      "evaluation; a second Ctrl-C ends the program at once");
+      "what Ctrl-C does once vertices have been removed; discard: write nothing; write: what there "
+      "is, without evaluation. A second Ctrl-C ends the program at once");
   return line;
 }
 

@@ -4,9 +4,9 @@
 #
 #   beside_scipy.py [--vertices 32000 100000] [--modes 50] [--threads T] [FILE ...]
 #
-# Time and agreement of eigsh() beside SciPy's, with SuperLU and, where scikit-sparse is
-# installed, with CHOLMOD, as LaPy calls both: shift and invert at -0.01, the consistent mass.
-# Meshes are files, or sheets with hills that are made here.
+# Compares time and eigenvalues of eigsh() with those of SciPy's, called as LaPy does: shift-invert
+# at -0.01, consistent mass, with SuperLU and, if scikit-sparse is installed, with CHOLMOD. Meshes
+# are files, or sheets with hills made here.
 
 import argparse
 import time

@@ -5,10 +5,10 @@
 #   cortex.py [--surface FILE --mask FILE] [--vertices 2000] [--modes 100] [--eigenvalues FILE]
 #             [--other FILE ...] [--mass averaged] [--output FOLDER]
 #
-# A cortex without its medial wall to 2,000 vertices: how well the modes of the full surface, in the
-# mass that LaPy takes, are kept by the small mesh and by operators that are fitted on it, parcels
-# and measurements that are carried, other surfaces of the subject, and a figure. Without --surface
-# it is a folded sphere with a hole, which is made here.
+# Simplifies a cortex without its medial wall to 2,000 vertices. Says how well the small mesh, and
+# operators fitted on it, keep the modes of the full surface in the mass that LaPy takes. Carries
+# parcels and other surfaces of the subject to it, and draws a figure. Without --surface the cortex
+# is a folded sphere with a hole, made here.
 
 import argparse
 import pathlib
@@ -84,9 +84,9 @@ def errors(values, fine, k):
 
 
 def compared(run, modes, first, mass="consistent"):
-    """Eigenpairs of the surface in `mass`; those of the small mesh in `mass` and in the mass of the
-    run, whose elements err less; the first eigenvalues, at the scale of the surface, of operators
-    that are fitted to twice as many."""
+    """Eigenpairs of the surface in `mass`, and of the small mesh in `mass` and in the mass of the
+    run, which errs less. Then the first eigenvalues, at the scale of the surface, of operators
+    fitted to twice as many."""
     pairs = min(2 * first, len(run.V))
     fine = ss.eigenpairs(*run.part(), max(modes, pairs), mass)
     target = ss.Eigenpairs.from_arrays(
@@ -146,13 +146,13 @@ def figure(path, run, fine, coarse, errors_by_k):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description="A cortex to a small mesh that keeps its modes.")
+    parser = argparse.ArgumentParser(description="Simplifies a cortex and keeps its modes.")
     parser.add_argument(
         "--surface", help="GIFTI, VTK, or what read_mesh() takes; a folded sphere without"
     )
     parser.add_argument("--mask", help="what read_mask() takes: which vertices are cortex")
     parser.add_argument(
-        "--eigenvalues", help="text: published ones of the masked surface, to compare with"
+        "--eigenvalues", help="published eigenvalues of the masked surface to compare with, as text"
     )
     parser.add_argument(
         "--other", nargs="*", default=[], help="surfaces of the subject, such as the pial one"

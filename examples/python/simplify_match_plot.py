@@ -42,7 +42,7 @@ print(judged)
 # %% Match: a vertex of Y for each of X.
 matched = ss.match(VX, FX, VY, FY, n, k)
 
-# %% Draw. Colours of Y go over the match to X, and by P to the simplified X.
+# %% Draw. The match carries colours of Y to X, and P carries them to the simplified X.
 colours = (VY - VY.min(axis=0)) / np.ptp(VY, axis=0)
 of_X = colours[matched.map]
 

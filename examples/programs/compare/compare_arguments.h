@@ -70,11 +70,9 @@ inline Command_line described(Compare_arguments& a)
   line.option("without", a.without, "TEXT", "no simplifiers with TEXT in their names");
   line.option(
       "rival", a.rival_meshes, "NAME=B[,P.mtx]",
-      "judge this mesh, with the P of the closest points and its own, coarse x fine; may be given "
-      "several times. It stands at the nearest of the sizes of --vertices. What is refused is "
-      "listed "
-      "with the "
-      "reason, and the exit status is 1 in the end");
+      "judge this mesh, with the P of the closest points and with its own, coarse x fine; may be "
+      "given several times. It is listed at the nearest size of --vertices. A rival that is "
+      "refused is listed with the reason, and the exit status is then 1");
   line.option(
       "rival-operators", a.rival_operators, "NAME=L.mtx,M.mtx,P.mtx",
       "the same for an operator (Matrix Market, L positive semidefinite) with its mass and its "

@@ -109,9 +109,9 @@ inline Command_line described(Matching_arguments& a)
   line.option("vertices", a.vertices, "N|P%", "of both simplified meshes; 3% is a part of X's");
   line.option(
       "pre-simplify", a.pre_simplify, "N0",
-      "first reduce larger X and Y to this number by quadrics alone, match these, and carry the "
-      "map to X "
-      "and Y by bending the one onto the other; for meshes of 100,000 vertices and more; 0: never");
+      "first reduce larger X and Y to this number by quadrics alone, match the reduced meshes, and "
+      "carry the map to X and Y by bending one onto the other; for meshes of 100,000 vertices and "
+      "more; 0: never");
   line.group("Quality");
   line.option("eigenvectors", a.eigenvectors, "K", "of all meshes; best N >= 3 K");
   line.choice("preset", a.preset, {"best", "paper"},
@@ -137,8 +137,8 @@ inline Command_line described(Matching_arguments& a)
                   " (no matcher then). The first is written; spectral, if no proxy is given");
   line.option(
       "proxy-meshes", a.proxy_meshes, "NAME=X_PROXY,Y_PROXY",
-      "compare also over these coarse meshes of X and Y, whoever made them, restricted to closest "
-      "points; may be given several times. Without --proxy these alone");
+      "match over these coarse meshes of X and Y as well, from any source, restricted to closest "
+      "points; may be given several times. Without --proxy match over these alone");
   line.choice("mass", a.mass, words_of(mass_words),
               "the mass matrix (best: averaged, paper: lumped)");
   line.choice("operators", a.operators, {"fitted", "mesh"},
@@ -150,9 +150,9 @@ inline Command_line described(Matching_arguments& a)
       "continuous ICP (Ren et al. 2018)");
   line.option("filter-iterations", a.filter_iterations, "I", "of the matcher; 0 leaves it out");
   line.option("fine-iterations", a.fine_iterations, "I",
-              "of bending X onto Y in space, at the end; 0 leaves it out");
+              "iterations that bend X onto Y in space, at the end; 0 leaves them out");
   line.option("local-weight", a.local_weight, "w",
-              "of curvature in these, at most; 0: positions alone");
+              "largest weight of curvature in these iterations; 0: positions alone");
   line.option("samples", a.samples, "S", "how many vertices of X errors are measured at");
   return line;
 }

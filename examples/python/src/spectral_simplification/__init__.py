@@ -1,9 +1,8 @@
 # Copyright (c) 2026 The Spectral mesh simplification authors.
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Simplifies triangle meshes so that the spectrum of their Laplacian stays what it was (Lescoat
-et al., Spectral Mesh Simplification, 2020): arrays of NumPy in, arrays out, sparse matrices of
-SciPy.
+"""Simplifies triangle meshes and keeps the spectrum of their Laplacian (Lescoat et al., Spectral
+Mesh Simplification, 2020). Input and output are NumPy arrays, matrices are SciPy sparse matrices.
 
     run = simplify(V, F, 600)
     run.V, run.F, run.P

@@ -58,7 +58,7 @@ def _arguments() -> argparse.ArgumentParser:
     add("--preset", choices=["best", "fast", "paper"], default="best")
     add("--mass", choices=["lumped", "averaged", "voronoi", "consistent"])
     add("--placement", choices=["on_edge", "midpoint", "free"])
-    add("--shape", metavar="G", type=float, help="weight of the shape beside the spectrum")
+    add("--shape", metavar="G", type=float, help="weight of the shape term in the cost")
     add("--self-intersections", choices=["allow", "refuse"])
     add("--relocate", choices=["none", "sampled", "carried", "carried_and_sampled"])
     add("--prefer", choices=["spectrum", "shape"])
@@ -113,7 +113,7 @@ def _arguments() -> argparse.ArgumentParser:
     add(
         "--mask",
         metavar="FILE",
-        help="those that take part: 0 or 1 for each vertex of IN (text, .npy, .gii), or a .label",
+        help="vertices that take part: 0 or 1 for each vertex of IN (text, .npy, .gii) or a .label",
     )
     add("--save", metavar="FILE.npz", help="the whole result, for load()")
     add("--version", action="version", version=__version__)

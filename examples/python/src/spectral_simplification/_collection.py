@@ -355,39 +355,39 @@ def simplify_collection(
     progress: bool | Callable[[int, Any, str], Any] | None = None,
     **options: Any,
 ) -> list[Collection_row]:
-    """Simplifies many meshes: of each a row, with its result or with the sentence that says why
-    there is none.
+    """Simplifies many meshes. Returns a row for each, with its result or with the sentence that
+    says why there is none.
 
     Parameters
     ----------
     meshes : iterable
-        File names, see read_mesh(), or pairs (V, F); for a folder the list of glob.glob(). Read as
-        they are wanted, but for a shared connectivity. Each is cleaned as clean() does, unless an
-        option has a number or a row for each vertex, and results are numbered as the mesh came.
-        An iterable that raises an exception ends with a row that says so.
+        File names, see read_mesh(), or pairs (V, F); for a folder the list of glob.glob(). They are
+        read as needed, or all at once for a shared connectivity. Each is cleaned as clean() does,
+        unless an option has vertex indices or a row for each vertex; results still number the
+        vertices as given. If the iterable raises an exception, the last row says so.
     n : int
         Vertices of each result.
     output : folder, optional
-        Where results are written as they come, NAME.npz each, which load() reads. A second call
-        with the same arguments goes on where the first one ended. A file of the same name but of
-        another mesh is not touched: the row has an error. None: the rows hold the results.
+        Where results are written as they come, NAME.npz each, for load(). A second call with the
+        same arguments continues where the first one ended. A file of the same name but of another
+        mesh is not touched: the row has an error. None: the rows hold the results.
     workers : int, 'all', address or client
         1: this process; more, or 'all': processes of this machine; an address such as
         'tcp://host:8786', or a distributed.Client: a cluster of Dask, whose workers see the files
         and have this package.
     shared_connectivity : bool
-        All meshes have the same faces, as poses of one figure: the results have one connectivity,
-        too, and vertex i of them is in the same place. The merges are decided by the eigenvectors
-        of all, in the metric of the first mesh. Each result is relocated for its own, unless
-        relocate is 'none', and begins where the first comes to lie. Options that are about one
-        mesh, or leave out a part of it, are refused.
+        All meshes have the same faces, as poses of one figure. The results then have one
+        connectivity, too, with vertex i in the same place. The eigenvectors of all meshes decide
+        the collapses, in the metric of the first mesh. Unless relocate is 'none', each result is
+        relocated by its own eigenvectors, starting where the first result ended. Options that are
+        about one mesh, or leave out a part of it, are refused.
     repair : bool
         Does what --repair does to each mesh. Results of files are numbered as
         read_mesh(name, repair=True) numbers these.
     progress : bool or function, optional
-        True: a bar on stderr, the default at a terminal. A function gets how many are done, of
-        how many, or None, and the name; where it returns False the call ends, with Cancelled, and
-        what is written stays.
+        True: a bar on stderr, the default at a terminal. A function gets the number done, the
+        total or None, and the name. If it returns False, Cancelled is raised, and what is written
+        stays.
     **options
         Of simplify(), for all meshes.
 
@@ -585,8 +585,8 @@ def _shared(
     there: Callable,
     ended: Callable,
 ) -> None:
-    """Merges that all poses decide: random mixtures of the eigenvectors of all are the signals,
-    since a sketch of all side by side has the metric of all. Then each pose gets the coarse mesh,
+    """All poses decide the collapses: the signals are random mixtures of all their eigenvectors,
+    since a sketch of all side by side has the metric of all. Then each pose gets the coarse mesh
     and is relocated by its own eigenvectors."""
     for name in (
         "signals",
@@ -685,7 +685,7 @@ def _shared(
     sampled = relocate == "sampled"
 
     missing = [i for i in going if not there(i)]
-    if sampled and missing:  # that of the operator first: where it comes to lie the others begin
+    if sampled and missing:  # the pose of the operator first: the others start where it ends
         level, error, seconds = _guarded(_posed, (going[one], run, pairs[one], True, threads))
         if one in missing:
             missing.remove(one)

@@ -102,49 +102,49 @@ def simplify(
         (v, 3) real numbers, positions in any unit of length
     F : array
         (f, 3) integers, the corners of the triangles, counted from 0: an oriented manifold, with or
-        without border. Vertices without a face are left out, and the result is numbered as V all
-        the same
+        without border. Vertices without a face are left out, but P, Q and vertex_map still number
+        the vertices as V does
     n : int
-        how many vertices are left; 3 k or more, a warning says so
+        number of vertices of the result; below the advised 3 k there is a warning
     k : int, optional
-        how many eigenvectors are kept, the constant one included; below v. 100, or as many as
-        signals has columns
+        number of eigenvectors to keep, the constant one included; below v. By default 100, or the
+        number of columns of signals
     preset : str
-        'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 15 n, at least
-        10000, and filtered noise in place of eigenvectors; 'paper': what Lescoat et al. describe
-        (Spectral Mesh Simplification, 2020). Each of the next five, quadrics_above and
-        pre_simplify overrides it
+        'best' keeps the spectrum best; 'fast' is the same with pre_simplify at 15 n, at least
+        10000, and filtered noise in place of eigenvectors; 'paper' is the method of Lescoat et al.
+        (Spectral Mesh Simplification, 2020). The next five parameters, quadrics_above and
+        pre_simplify override it
     mass : str, optional
-        'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
-        eigenvalues of coarse meshes much closer, 'voronoi', lumped by mixed Voronoi areas, or
+        mass matrix: 'lumped' (paper); 'averaged' (best), the mean of lumped and consistent, which
+        keeps eigenvalues of coarse meshes much closer; 'voronoi', lumped by mixed Voronoi areas;
         'consistent', for finite elements such as LaPy's
     placement : str, optional
         'on_edge' (paper), 'midpoint' or 'free' (best): where the vertex goes that replaces an edge
     shape : float, optional
-        weight of the shape beside the spectrum (best: 3, paper: 0)
+        weight of the shape term in the cost (best: 3, paper: 0)
     self_intersections : str, optional
         'allow' (paper) or 'refuse' (best) collapses that put a face through another
     relocate : str, optional
         'none' (paper), 'sampled' (best), 'carried' or 'carried_and_sampled': how vertices are moved
-        afterwards. With 'sampled' P is that of the closest points and does not follow vertex_map
+        afterwards. With 'sampled' P interpolates at closest points and does not follow vertex_map
     prefer : str, optional
-        'spectrum', the default, or 'shape': relocation brings the surfaces nearer to each other. The Hausdorff
-        distance is a fifth smaller, errors of the spectrum are a tenth larger
+        'spectrum', the default, or 'shape': relocation brings the surfaces nearer to each other.
+        The Hausdorff distance is a fifth smaller, errors of the spectrum are a tenth larger
     keep : str, sequence of int or bool, or list of both, optional
-        vertices of V that stay where they are, vertex_map says where they went: indices, each
-        once, True for each, 'border', or 'sharp:ANGLE', those of edges where the normals of both
-        faces are ANGLE degrees apart, and corners of the border
+        vertices of V that keep their positions: indices, each once, or booleans; 'border';
+        'sharp:ANGLE', ends of edges whose two face normals are ANGLE degrees apart or more, and
+        corners of the border. vertex_map has their new indices
     mask : array of bool, optional
         (v,), True or 1 for the vertices of V that take part, such as a cortex without its medial
-        wall: faces stay where all their corners do. The result is numbered as V, columns of P are
-        empty elsewhere
+        wall. A face takes part if all its corners do. P, Q and vertex_map still number the
+        vertices as V does; columns of P are empty elsewhere
     drop_debris : float, optional
-        leaves out components of less than this share of the area, in (0, 1): among many crumbs a
-        body ends as a tetrahedron. report['left_out'] has their first vertices
+        leaves out components of less than this share of the area, in (0, 1); report['left_out'] has
+        the first vertex of each. Otherwise many crumbs can reduce the body to a tetrahedron
     binary : bool
         P of ones and zeros, it picks vertices of V. Not with relocate='sampled'
     preserve_border : bool
-        no edge is drawn away from the border
+        no collapse draws a vertex off the border
     signals : array, optional
         (v, s) real numbers, functions to keep instead of eigenvectors
     eigenpairs : Eigenpairs, optional
@@ -160,42 +160,41 @@ def simplify(
         stop before the relative error sqrt(E / sum lambda^2) exceeds this; 0.1 keeps the spectrum
         closely, 0.14 well
     fit_operators : bool
-        afterwards choose a Laplacian and a mass of the simplified mesh so that they have the
-        spectrum of V, F as nearly as they can: fitted of the result. Takes another solve, for a
-        fifth more eigenpairs, unless eigenpairs are given
+        afterwards fit a Laplacian and a mass matrix of the simplified mesh to the spectrum of V, F;
+        the result has them as fitted. This takes another solve, for a fifth more eigenpairs,
+        unless eigenpairs are given
     coefficients : array, optional
-        (v, 7) of the operator whose spectrum is kept, -div(D grad phi) = lambda rho phi, in place
-        of the Laplacian: rho, and D as xx, xy, xz, yy, yz, zz; see weighted_coefficients() and
-        curvature_coefficients(). The simplified mesh has those of the result
+        (v, 7), for an operator whose spectrum is kept in place of the Laplacian's,
+        -div(D grad phi) = lambda rho phi: rho, and D as xx, xy, xz, yy, yz, zz; see
+        weighted_coefficients() and curvature_coefficients(). The result has those of its mesh
     intrinsic_delaunay : bool
         for a mesh of needles: keep eigenvectors of its intrinsic Delaunay triangulation
     boundary : str
-        'neumann' or 'dirichlet': on the border the derivative of functions across it is zero, or
-        they are
+        boundary condition: 'neumann' (zero normal derivative) or 'dirichlet' (zero value)
     threads : int, optional
         for eigenpairs and relocation, all cores by default and at most; the result does not depend
         on it
     progress : function, optional
-        is called with a phase and the fraction of it that is done, at most twenty times a second;
-        raises Cancelled where it returns False. Ctrl-C raises KeyboardInterrupt without it
+        called with a phase and the fraction of it that is done, at most twenty times a second. If
+        it returns False, Cancelled is raised. Ctrl-C raises KeyboardInterrupt even without it
 
     Returns
     -------
     Simplification
-        V, F, P, Q, vertex_map, collapses, eigenpairs, report, levels(n) and what carries functions.
+        V, F, P, Q, vertex_map, collapses, eigenpairs, report, levels(n), and methods that carry
+        functions.
 
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     Cancelled
-        Where progress returns False.
+        If progress returns False.
 
     Notes
     -----
     Nothing is repaired, and V and F are not changed: ValueError and TypeError name the first
-    thing that is wrong. What is done but not advised is a UserWarning, and so is a run that ends
-    above n.
+    fault. A UserWarning tells of what is done but not advised, and of a run that ends above n.
 
     Examples
     --------
@@ -309,17 +308,17 @@ def eigenpairs(
     Parameters
     ----------
     V, F : array
-        as of simplify(), but faces need not form a manifold
+        as in simplify(), but faces need not form a manifold
     k : int
         from 1 to v
     mass : str
         'lumped', 'averaged', 'consistent', as LaPy takes it, or 'voronoi'
     tolerance : float
-        of the residuals: the norm of L phi - lambda M phi (in M^-1, lumped) over
-        lambda + 4 pi / area; a warning says where it is not reached. A run of simplify() has
-        pairs of 1e-8
+        bound on the residuals, the norm of L phi - lambda M phi (in M^-1, lumped) over
+        lambda + 4 pi / area. If it is not reached there is a warning. A run of simplify() computes
+        its pairs with 1e-8
     coefficients, boundary, intrinsic_delaunay, threads, progress : array, optional
-        as of simplify()
+        as in simplify()
 
     Returns
     -------
@@ -329,9 +328,9 @@ def eigenpairs(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     Cancelled
-        Where progress returns False.
+        If progress returns False.
     """
     return Eigenpairs(_core.eigenpairs(locals()))
 
@@ -345,7 +344,7 @@ def eigsh(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """The k smallest eigenvalues and their vectors of any pencil, L u = w M u: the place of
+    """The k smallest eigenvalues of any pencil, L u = w M u, and their eigenvectors. Replaces
     scipy.sparse.linalg.eigsh(L, k, M, sigma=0 or below).
 
     Parameters
@@ -363,7 +362,7 @@ def eigsh(
     threads : int, optional
         All cores by default; the result does not depend on it.
     progress : function, optional
-        As of simplify().
+        As in simplify().
 
     Returns
     -------
@@ -422,8 +421,8 @@ def evaluate(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Evaluation:
-    """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures
-    are for both meshes at unit area unless scale says otherwise; compare figures of one mass only.
+    """Measures how well a coarse mesh, from any source, keeps the first k eigenpairs of a fine one.
+    Figures are for unit area unless scale says otherwise; compare figures of the same mass only.
 
     Parameters
     ----------
@@ -443,15 +442,15 @@ def evaluate(
     operators : Fitted_operators, optional
         what fit_operators() returned, in the place of the coarse mesh's own operators
     coefficients : array, optional
-        of the operator, (v, 7), as of simplify()
+        of the operator, (v, 7), as in simplify()
     coarse_coefficients : array, optional
         those of the coarse mesh, (vc, 7), coefficients of a Simplification; P @ coefficients
         where None
     scale : str
-        'unit': both meshes at unit area; 'mesh': as they are, where the eigenvalues of a mesh that
-        has shrunk are larger, C_L and values in the inverse of its unit of area
+        'unit': both meshes at unit area; 'mesh': as they are. Then a mesh that has shrunk has
+        larger eigenvalues, and C_L and values have the unit of an inverse area
     boundary, intrinsic_delaunay, threads, progress : str
-        as of simplify()
+        as in simplify()
 
     Returns
     -------
@@ -461,9 +460,9 @@ def evaluate(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     Cancelled
-        Where progress returns False.
+        If progress returns False.
     """
     if k is None:
         k = numpy.size(getattr(eigenpairs, "values", ())) or 100
@@ -477,8 +476,8 @@ def rows_off_their_part(
     Fc: numpy.ndarray,
     P: scipy.sparse.csr_matrix,
 ) -> numpy.ndarray:
-    """Rows of P that read functions off another part of the shape than those of their neighbours,
-    an arm off the flank that it lies beside. None in a good P.
+    """Finds rows of P that read functions from another part of the shape than the rows of their
+    neighbours do, such as an arm from the flank beside it. A good P has none.
 
     Parameters
     ----------
@@ -497,7 +496,7 @@ def rows_off_their_part(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     return _core.rows_off_their_part(locals())
 
@@ -517,9 +516,8 @@ def fit_operators(
     coefficients: numpy.ndarray | None = None,
     progress: Progress | None = None,
 ) -> Fitted_operators:
-    """Chooses the entries of a Laplacian and a mass on a coarse mesh so that they have the
-    eigenpairs of the fine one as nearly as they can: for functional maps and spectral distances,
-    not for geometry.
+    """Fits the entries of a Laplacian and a mass matrix on a coarse mesh to the eigenpairs of the
+    fine mesh. The operators are for functional maps and spectral distances, not for geometry.
 
     Parameters
     ----------
@@ -544,7 +542,7 @@ def fit_operators(
     coefficients : array, optional
         (vc, 7), of the coarse mesh: coefficients of a Simplification; where eigenpairs have such
     progress : function, optional
-        as of simplify()
+        as in simplify()
 
     Returns
     -------
@@ -554,9 +552,9 @@ def fit_operators(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     Cancelled
-        Where progress returns False.
+        If progress returns False.
     """
     return Fitted_operators(_core.fit_operators(locals()))
 
@@ -581,20 +579,20 @@ def weighted_coefficients(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     return _core.weighted_coefficients(locals())
 
 
 def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float) -> numpy.ndarray:
-    """(v, 7), the coefficients of an anisotropic Laplacian (Andreux et al. 2014): in the
-    direction of a principal curvature kappa the surface conducts 1 / (1 + anisotropy |kappa|),
-    with kappa in units of the sphere of the same area. simplify() and others take them.
+    """The coefficients of an anisotropic Laplacian (Andreux et al. 2014), for simplify() and
+    others. In the direction of a principal curvature kappa the conductivity is
+    1 / (1 + anisotropy |kappa|); kappa is 1 on the sphere of the same area.
 
     Parameters
     ----------
     V, F : array
-        as of simplify(), but faces need not form a manifold
+        as in simplify(), but faces need not form a manifold
     anisotropy : float
         from 0, the Laplacian itself
 
@@ -606,7 +604,7 @@ def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     return _core.curvature_coefficients(locals())
 
@@ -614,9 +612,9 @@ def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float
 def functional_map(
     eigenpairs: Eigenpairs, coarse_eigenpairs: Eigenpairs, P: scipy.sparse.csr_matrix
 ) -> numpy.ndarray:
-    """C, coarse modes x fine modes: a function of the fine coefficients x has the coarse
-    coefficients C x. It is vectors^T M P vectors, the first two of coarse_eigenpairs, the last of
-    eigenpairs, at the scale of the meshes; evaluate() has that of unit area.
+    """The functional map C, coarse modes x fine modes: it takes fine coefficients x of a function
+    to the coarse ones, C x. C = Uc^T Mc P U, with vectors Uc and mass Mc of coarse_eigenpairs and
+    vectors U of eigenpairs, at the scale of the meshes; evaluate() gives C at unit area.
 
     Parameters
     ----------
@@ -634,7 +632,7 @@ def functional_map(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     return _core.functional_map(locals())
 
@@ -660,11 +658,12 @@ def distances(
     kind : str
         'diffusion', 'biharmonic' or 'commute_time', or 'wave_kernel'
     time : float, optional
-        of 'diffusion', in the unit of area; 1 / (4 lambda_2), the first that is not zero
+        for 'diffusion', in the unit of area; None: 1 / (4 lambda_2), where lambda_2 is the first
+        nonzero eigenvalue
     energies : tuple, optional
         of 'wave_kernel', (t_min, t_max, sigma, steps); wave_kernel_energies(eigenpairs)
     squared : bool, optional
-        False: the root of those that are squares, which the first three are otherwise
+        False: return distances; otherwise the first three kinds are squared distances
 
     Returns
     -------
@@ -673,7 +672,7 @@ def distances(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
 
     Notes
     -----
@@ -710,7 +709,7 @@ def heat_kernel_signature(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     return _core.heat_kernel_signature(locals())
 
@@ -733,7 +732,7 @@ def wave_kernel_signature(eigenpairs: Eigenpairs, energies: tuple | None = None)
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     return _core.wave_kernel_signature(locals())
 
@@ -755,7 +754,7 @@ def wave_kernel_energies(eigenpairs: Eigenpairs, steps: int = 100) -> tuple:
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     return _core.wave_kernel_energies(locals())
 
@@ -780,14 +779,14 @@ def match(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Match:
-    """Finds for each vertex of X the vertex of Y that corresponds to it, as the program
-    shape_matching does: over simplified meshes, by a functional map from signatures, ZoomOut and
-    the Product Manifold Filter or BCICP.
+    """Finds the vertex of Y that corresponds to each vertex of X, as the program shape_matching
+    does. It matches simplified meshes, by a functional map from signatures, ZoomOut and the
+    Product Manifold Filter or BCICP.
 
     Parameters
     ----------
     VX, FX, VY, FY : array
-        two meshes, nearly isometric, as of simplify()
+        two meshes, nearly isometric, as in simplify()
     n : int
         vertices of the simplified meshes, 3 k or more
     k : int
@@ -799,22 +798,22 @@ def match(
     proxy : str
         'spectral', 'garland_heckbert' or 'none': how the meshes are simplified
     operators : str
-        'fitted' or 'mesh', of the simplified meshes: fitted to the spectra of X and Y, or their own
+        operators of the simplified meshes: 'fitted' to the spectra of X and Y, or 'mesh', their own
     initial : int
         modes of the functional map from signatures, from 4 to 60
     matcher : str
         'product_manifold_filter' or 'bcicp' (Ren et al. 2018): what makes the map between the
         simplified meshes bijective
     filter_iterations : int
-        of the matcher; 0: none
+        iterations of the matcher; 0: none
     fine_iterations : int
-        of bending X onto Y in space, at the end; 0: none
+        iterations that bend X onto Y in space, at the end; 0: none
     local_weight : float
-        of curvature in these, from 0 to 100
+        weight of curvature in these iterations, from 0 to 100
     threads : int, optional
         all cores by default; the result does not depend on it
     progress : function, optional
-        as of simplify(); the fraction counts three stages
+        as in simplify(); the fraction counts three stages
 
     Returns
     -------
@@ -824,8 +823,8 @@ def match(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     Cancelled
-        Where progress returns False.
+        If progress returns False.
     """
     return Match._from_state(_core.match(locals()))

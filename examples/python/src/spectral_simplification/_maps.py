@@ -95,7 +95,7 @@ def functional_map_of_point_map(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     source, target = _pairs("source", source), _pairs("target", target)
     T = _point_map("T", T, len(target.vectors), len(source.vectors))
@@ -125,7 +125,7 @@ def point_map(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     C = _modes("C", C, _pairs("target", target), _pairs("source", source))
     return _core.point_map(locals())
@@ -153,12 +153,12 @@ def zoom_out(
     k : int, optional
         Modes at the end; as many as both have.
     step : int
-        How many are added each time. Each step searches all vertices of both meshes: 10 takes a
-        tenth of the time of 1, and errs as much.
+        Modes added in each step, which searches all vertices of both meshes: 10 takes a tenth of
+        the time of 1, and errs as much.
     threads : int, optional
         All cores by default.
     progress : function, optional
-        See simplify(); of the phase 'zoom_out', asked between the steps.
+        As in simplify(), with the phase 'zoom_out'; called between the steps.
 
     Returns
     -------
@@ -170,9 +170,9 @@ def zoom_out(
     Raises
     ------
     Cancelled
-        Where progress returns False.
+        If progress returns False.
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     C = _modes("C", C, _pairs("target", target), _pairs("source", source))
     most = min(len(source), len(target))
@@ -210,7 +210,7 @@ def lift_functional_map(
     target_eigenpairs: Eigenpairs,
     tolerance: float = 0.05,
 ) -> numpy.ndarray:
-    """Lifts a functional map between two simplified meshes, found by anything, to the meshes they
+    """Lifts a functional map between two simplified meshes, found by any method, to the meshes they
     were made from (Lescoat et al., section 5.2).
 
     Parameters
@@ -222,7 +222,7 @@ def lift_functional_map(
     source_eigenpairs, target_eigenpairs : Eigenpairs
         Of the simplified meshes, such as run.coarse_eigenpairs().
     tolerance : float
-        Singular values below so many times the largest are cut off; from 0, below 1.
+        Singular values below this fraction of the largest are cut off; from 0, below 1.
 
     Returns
     -------
@@ -232,7 +232,7 @@ def lift_functional_map(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     C = _modes(
         "C",
@@ -266,8 +266,8 @@ def lift_point_map(
     k: int | None = None,
     threads: int | None = None,
 ) -> numpy.ndarray:
-    """Lifts a point map between two simplified meshes, found by anything, to the meshes they were
-    made from: by its functional map.
+    """Lifts a point map between two simplified meshes, found by any method, to the meshes they
+    were made from, by way of its functional map.
 
     Parameters
     ----------
@@ -288,7 +288,7 @@ def lift_point_map(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
     """
     runs = _run("source", source), _run("target", target)
     most = min(min(run.report["eigenvectors"], len(run.V)) for run in runs)
@@ -320,11 +320,11 @@ def align(
     T: numpy.ndarray | scipy.sparse.spmatrix | None = None,
     mixing: float = 0.3,
 ) -> Alignment:
-    """Turns the eigenvectors of a mesh so that they agree with those of another: signs, and
-    rotations within clusters.
+    """Aligns the eigenvectors of a mesh with those of another, by signs and by rotations within
+    clusters.
 
-    A cluster is the least set of neighbouring modes such that the modes below and above it do not
-    mix with it, as far as the map between the meshes tells.
+    A cluster is a smallest set of consecutive modes that do not mix with the modes below and above
+    them, as far as the map between the meshes tells.
 
     Parameters
     ----------
@@ -334,8 +334,8 @@ def align(
         For each vertex of the first the one of the second, or an interpolation (first x second).
         None: both have the same connectivity, as poses that share it.
     mixing : float
-        How large the part of modes may be that goes to the other side of a cut between clusters;
-        from 0 to 1.
+        Largest part of a mode that may lie on the other side of a cut between clusters; from 0
+        to 1.
 
     Returns
     -------
@@ -345,11 +345,11 @@ def align(
     Raises
     ------
     ValueError, TypeError
-        In one sentence that names the first thing that is wrong.
+        If the input is invalid; one sentence names the first fault.
 
     Examples
     --------
-    Vectors of another sign are turned round:
+    Vectors of the opposite sign are flipped:
 
     >>> import numpy
     >>> from scipy.sparse import diags, identity

@@ -43,9 +43,9 @@ class Cleaned(_Result):
     F : (m, 3) int32
         Triangles.
     place : (v,) int64
-        Where each vertex that was given is now; -1 where it was left out.
+        New index of each vertex that was given; -1 if it was left out.
     origin : (n,) int64
-        Which of those that were given each vertex is.
+        For each vertex, its index among those given.
     changes : list of str
         What was changed, with numbers; empty if nothing.
     """
@@ -88,9 +88,8 @@ class Diagnosis(_Result):
 
 
 def clean(V: numpy.ndarray, F: numpy.ndarray, repair: bool = False) -> Cleaned:
-    """Makes a mesh usable as the programs do by themselves: turns faces round, leaves out
-    isolated vertices and copies of faces, closes edges without length. The surface stays as it
-    is.
+    """Cleans a mesh as the programs do automatically: reorients faces, leaves out isolated vertices
+    and duplicate faces, closes edges of zero length. The surface stays as it is.
 
     Parameters
     ----------
@@ -99,8 +98,8 @@ def clean(V: numpy.ndarray, F: numpy.ndarray, repair: bool = False) -> Cleaned:
     F : (f, 3) array
         Triangles.
     repair : bool
-        Does what --repair does as well: merges vertices of equal position, closes cracks,
-        separates sheets, removes faces.
+        Also repairs as --repair does: merges vertices of equal position, closes cracks, separates
+        sheets, removes faces.
 
     Returns
     -------
@@ -110,7 +109,7 @@ def clean(V: numpy.ndarray, F: numpy.ndarray, repair: bool = False) -> Cleaned:
     Raises
     ------
     ValueError
-        If the mesh cannot be used afterwards, with the first obstacle.
+        If the mesh cannot be used even then; it names the first obstacle.
     KeyboardInterrupt
         Ctrl-C ends a repair as well.
 
@@ -295,8 +294,8 @@ def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.nda
     Parameters
     ----------
     path : str or path
-        .off, .obj, .ply, .stl; .vtk and .vtp of polygons; .gii and surfaces of FreeSurfer, such
-        as lh.pial, through nibabel; what meshio reads through meshio.
+        .off, .obj, .ply, .stl; .vtk and .vtp of polygons; through nibabel .gii and FreeSurfer
+        surfaces such as lh.pial; through meshio .vtu, .msh, .xdmf, .mesh, .inp and other .vtk.
     repair : bool
         Of .off, .obj, .ply and .stl: triangulates polygons, and does what --repair does.
 
@@ -375,7 +374,7 @@ def _unknown(path: pathlib.Path) -> str:
     return (
         f"{path} ends in {path.suffix!r}, which is not known: use {', '.join(_OWN)}, .vtk, "
         ".vtp, .gii, a surface of FreeSurfer "
-        f"such as {_FREESURFER[0]}, or {', '.join(_MESHIO[:4])}."
+        f"such as {_FREESURFER[0]}, or {', '.join(_MESHIO[:5])}."
     )
 
 
@@ -411,8 +410,8 @@ def read_mask(path: Any, n: int) -> numpy.ndarray:
     ----------
     path : str or path
         Text or .npy with 1 for each vertex that takes part and 0 for the others; .gii with such
-        values, or labels that are 0 elsewhere; a .label of FreeSurfer, which names those that take
-        part. The last two through nibabel.
+        values, or labels that are 0 elsewhere; a FreeSurfer .label of the vertices that take part.
+        The last two need nibabel.
     n : int
         The number of vertices.
 
@@ -463,12 +462,12 @@ def read_mask(path: Any, n: int) -> numpy.ndarray:
 
 
 def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
-    """Writes a mesh; the file is there wholly or not at all.
+    """Writes a mesh; the file appears complete or not at all.
 
     Parameters
     ----------
     path : str or path
-        As of read_mesh().
+        As in read_mesh().
     V : (v, 3) array
         Positions.
     F : (f, 3) array

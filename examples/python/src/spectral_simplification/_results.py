@@ -160,7 +160,7 @@ class _Result:
         return _restored, (type(self).__name__, self._state())
 
     def save(self, path: Any) -> None:
-        """Writes the result to a file that `load()` reads; it is there wholly or not at all.
+        """Writes the result for `load()`; the file appears complete or not at all.
 
         Parameters
         ----------
@@ -331,12 +331,12 @@ class Eigenpairs(_Result):
 
     @property
     def further_values(self) -> numpy.ndarray:
-        """Some of the next eigenvalues, to a thousandth: those that cost nothing more to know."""
+        """Some of the next eigenvalues, to a thousandth, which the solver has at no extra cost."""
         return self._core.further_values
 
     @property
     def zeros(self) -> int:
-        """How many eigenvalues are zero, one for each component."""
+        """How many eigenvalues are zero: one per component; 'dirichlet': per closed component."""
         return self._core.zeros
 
     @property
@@ -543,12 +543,12 @@ class Fitted_operators(Eigenpairs):
 
     @property
     def iterations(self) -> int:
-        """Of the barrier method."""
+        """Iterations of the barrier method."""
         return self._core.iterations
 
     @property
     def converged(self) -> bool:
-        """False where it was stopped, valid all the same."""
+        """False if the fit was stopped; its operators are valid even then."""
         return self._core.converged
 
     @property
@@ -558,7 +558,7 @@ class Fitted_operators(Eigenpairs):
 
     @property
     def at_bound(self) -> int:
-        """How many of them are at their bounds."""
+        """How many weights are at their bounds."""
         return self._core.at_bound
 
     def _state(self) -> dict[str, Any]:
@@ -588,16 +588,16 @@ class Level(_Result):
         Carries functions of the input to this mesh: P @ f. Rows sum to 1; columns of vertices
         that no face uses, or that a mask leaves out, are empty.
     vertex_map : (v,) int64
-        The vertex of this mesh that each of the input went to; -1 where it was left out.
+        For each vertex of the input, the vertex of this mesh it went to; -1 if left out.
     fine_V : (v, 3) float64
         Positions of the input.
     fine_F : (f, 3) int64
         The triangles of the input that were used.
     eigenpairs : Eigenpairs or None
-        Of the input, as far as the run had them: None with signals or pre_simplify, and in what
-        apply() and a shared connectivity return; fine_eigenpairs are there always.
+        Of the input, if the run had them: None with signals or pre_simplify, and in results of
+        apply() and of a shared connectivity. fine_eigenpairs is always available.
     coefficients : (n, 7) array or None
-        What the collapses have made of coefficients=: of the operator of this mesh.
+        Of the operator on this mesh: coefficients= as the collapses carried them.
     fitted : Fitted_operators or None
         With fit_operators=True, for evaluate(..., operators=...).
     report : dict
@@ -683,7 +683,7 @@ class Level(_Result):
         return self._from_state(state)
 
     def part(self) -> tuple[numpy.ndarray, numpy.ndarray]:
-        """What was used of the input, numbered among itself: what `eigenpairs` are about.
+        """The part of the input that was used, with its own numbering: the mesh of `eigenpairs`.
 
         Returns
         -------
@@ -709,9 +709,9 @@ class Level(_Result):
 
     @property
     def Q(self) -> scipy.sparse.csr_matrix:
-        """(v, n) csr_matrix, carries functions back: barycentric coordinates of the closest
-        points; rows of vertices that were left out are empty, those of merged ones are alike.
-        Computed when it is first asked for."""
+        """(v, n) csr_matrix that carries functions back, by barycentric coordinates of the closest
+        points. Rows of vertices that were left out are empty; vertices that clean() merged have
+        equal rows. Computed when it is first used."""
         if self._Q is None:
             V, F = self.part()
             Q = _core.prolongation(dict(V=V, F=F, Vc=self.V, Fc=self.F, P=self._part_P()))
@@ -725,8 +725,8 @@ class Level(_Result):
 
     @property
     def A(self) -> scipy.sparse.csr_matrix:
-        """(n, v) csr_matrix, means weighted by area: every used vertex of the input counts, rows
-        sum to 1. What average() uses. A vertex that no other is near to has its row of P."""
+        """(n, v) csr_matrix of area-weighted means, for average(): every used vertex of the input
+        counts, rows sum to 1. A vertex with no vertex of the input nearby has its row of P."""
         weights = self.Q.T @ scipy.sparse.diags(_vertex_areas(self.fine_V, self.fine_F))
         total = numpy.asarray(weights.sum(axis=1)).ravel()
         lonely = total <= 1e-12 * total.sum()
@@ -787,18 +787,18 @@ class Level(_Result):
     def interpolate(
         self, values: numpy.ndarray, unit: bool = False, nan: str = "propagate"
     ) -> numpy.ndarray:
-        """Carries what the vertices of V have to this mesh, as P @ values: values at points, such
-        as positions or colours.
+        """Carries values at the vertices of V to this mesh, as P @ values: for values at points,
+        such as positions or colours.
 
         Parameters
         ----------
         values : (v, ...) array
-            Real numbers; NaN where a masked array has none. Integers, as those of colours, are
-            rounded and keep their dtype.
+            Real numbers; masked entries count as NaN. Results for integers, such as colours, are
+            rounded and keep the dtype.
         unit : bool
             Gives rows, of normals for instance, the length 1.
         nan : str
-            'propagate', or 'omit': means of those that are there, NaN where there are none.
+            'propagate', or 'omit': the mean of the values that are not NaN, NaN if there are none.
 
         Returns
         -------
@@ -808,21 +808,21 @@ class Level(_Result):
         Raises
         ------
         ValueError, TypeError
-            In one sentence that names the first thing that is wrong.
+            If the input is invalid; one sentence names the first fault.
         """
         return self._carried(self.P, values, unit, nan)
 
     def average(
         self, values: numpy.ndarray, unit: bool = False, nan: str = "propagate"
     ) -> numpy.ndarray:
-        """Carries what the vertices of V have to this mesh as means over the area around each
-        vertex: measurements with noise, thickness or activity. Every vertex of V counts, while P
-        leaves most without weight.
+        """Carries values at the vertices of V to this mesh, as means over the area around each
+        vertex: for noisy measurements such as thickness or activity. Every vertex of V counts,
+        while P gives most no weight.
 
         Parameters
         ----------
         values, unit, nan : array, bool, str
-            As of interpolate(), and booleans.
+            As in interpolate(), or booleans.
 
         Returns
         -------
@@ -832,7 +832,7 @@ class Level(_Result):
         Raises
         ------
         ValueError, TypeError
-            In one sentence that names the first thing that is wrong.
+            If the input is invalid; one sentence names the first fault.
         """
         if not numpy.ma.isMaskedArray(values):
             values = _rectangular("values", values)
@@ -850,8 +850,8 @@ class Level(_Result):
             numbers of type float are integers. Those of vertices that were left out are not read,
             and may be missing.
         by : str
-            'restriction': of those in a row of P the one of most weight, the smallest of several;
-            'area': the one with most area around the vertex, as average() weights it.
+            'restriction': the label with the largest weight in a row of P, on a tie the smallest;
+            'area': the label with the most area around the vertex, as average() weights it.
 
         Returns
         -------
@@ -861,8 +861,8 @@ class Level(_Result):
         Raises
         ------
         ValueError, TypeError
-            In one sentence that names the first thing that is wrong, a label that is missing too,
-            of a vertex that was used.
+            If the input is invalid, or a used vertex has no label; one sentence names the first
+            fault.
         """
         by = _word("by", by, ("restriction", "area"))
         v = self.P.shape[1]
@@ -904,16 +904,16 @@ class Level(_Result):
         return self._voted(labels, by)
 
     def prolong_labels(self, labels: Any, outside: Any = None) -> numpy.ndarray:
-        """Carries labels of this mesh to the vertices of V: from the vertex of most weight in a row
-        of Q.
+        """Carries labels of this mesh to the vertices of V: each gets the label with the largest
+        weight in its row of Q.
 
         Parameters
         ----------
         labels : (n,) array
             Of any type, a label for each vertex of this mesh; a pandas categorical gives one.
         outside : optional
-            What vertices get that do not take part, those that mask= leaves out or that have no
-            face; needed where there are any. Of the kind of the labels.
+            Label of vertices that do not take part, which mask= leaves out or which have no face;
+            needed if there are any. Of the kind of the labels.
 
         Returns
         -------
@@ -922,7 +922,7 @@ class Level(_Result):
         Raises
         ------
         ValueError, TypeError
-            In one sentence that names the first thing that is wrong.
+            If the input is invalid; one sentence names the first fault.
         """
         kind = getattr(labels, "dtype", None)
         if hasattr(kind, "categories"):  # pandas
@@ -987,9 +987,9 @@ class Level(_Result):
 
     @property
     def fine_eigenpairs(self) -> Eigenpairs:
-        """Eigenpairs of the input in the mass of the run, also where `eigenpairs` is None: then
-        computed when first asked for. As many as the run kept, or all that eigenpairs= had; rows
-        are those of `used`."""
+        """Eigenpairs of the input in the mass of the run. If `eigenpairs` is None, they are
+        computed when first used. There are as many as the run kept, or all that eigenpairs= had;
+        rows are those of `used`."""
         if self.eigenpairs is not None:
             return self.eigenpairs
         if self._asked.get("pairs") is None:
@@ -1014,10 +1014,10 @@ class Level(_Result):
         k : int, optional
             How many; as many as the run kept.
         mass : str, optional
-            'lumped', 'averaged', 'consistent' or 'voronoi'; 'fitted' for operators with the
-            spectrum of the input; that of the run.
+            'lumped', 'averaged', 'consistent' or 'voronoi'; 'fitted' for operators fitted to the
+            spectrum of the input. None: the mass of the run.
         progress : function, optional
-            As of simplify().
+            As in simplify().
 
         Returns
         -------
@@ -1027,9 +1027,9 @@ class Level(_Result):
         Raises
         ------
         ValueError, TypeError
-            In one sentence that names the first thing that is wrong.
+            If the input is invalid; one sentence names the first fault.
         Cancelled
-            Where progress returns False.
+            If progress returns False.
         """
         k = min(self.report["eigenvectors"], len(self.V)) if k is None else k
         k = _integer("k", k, 1, len(self.V), ", the vertices of the simplified mesh")
@@ -1077,14 +1077,14 @@ class Level(_Result):
 
 
 class Simplification(Level):
-    """What simplify() returns: a Level, and how it came about.
+    """What simplify() returns: a Level with its collapses.
 
     Attributes
     ----------
     collapses : structured array
-        One record for each collapse, in order: the vertices of the input removed and kept, the
-        weight of the removed one, and point, where the vertex was put. Vertices are counted
-        among `used`.
+        One record for each collapse, in order: removed and kept, the two vertices of the input;
+        weight, that of the removed one; point, where the vertex was put. Vertices are indices
+        into `used`.
     """
 
     collapses: numpy.ndarray
@@ -1144,21 +1144,21 @@ class Simplification(Level):
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> Level:
-        """The simplified mesh of another pose with the connectivity of the input: the same faces,
-        vertex i in the same place.
+        """Simplifies another pose with the connectivity of the input. The result has the faces of
+        this mesh, and its vertex i is in the same place.
 
         Parameters
         ----------
         V_other : (v, 3) array
             Positions of the other pose; its faces are those of the input.
         by : str
-            'restriction': vertices are P @ V_other; 'merges': what the merges of the run make of
-            them, before relocation.
+            'restriction': vertices are P @ V_other; 'merges': the same with the P of the collapses,
+            before relocation.
         relocate : bool
             Moves the vertices so that the spectrum of this pose is kept, as relocate='sampled' of
             simplify() does. With 'restriction' the vertices start beside P @ V_other, as those of
-            the run lie beside P @ V. Eigenvalues need it. Vertex i lies elsewhere then, as the P
-            of the result says: compare poses vertex by vertex without it.
+            the run lie beside P @ V. Good eigenvalues need it. But vertex i then lies elsewhere,
+            where the P of the result says: to compare poses vertex by vertex, do without it.
         k : int, optional
             How many eigenpairs of this pose relocation sees; as many as the run kept. Not with
             eigenpairs.
@@ -1166,7 +1166,7 @@ class Simplification(Level):
             Of the other pose in the mass of the run, rows as in `used`, to save the solve: all of
             them are seen.
         threads, progress
-            As of simplify().
+            As in simplify().
 
         Returns
         -------
@@ -1176,9 +1176,9 @@ class Simplification(Level):
         Raises
         ------
         ValueError, TypeError
-            In one sentence that names the first thing that is wrong.
+            If the input is invalid; one sentence names the first fault.
         Cancelled
-            Where progress returns False.
+            If progress returns False.
         """
         by, relocate = _word("by", by, ("restriction", "merges")), _flag("relocate", relocate)
         if not relocate and (k is not None or eigenpairs is not None):
@@ -1322,14 +1322,14 @@ class Evaluation(_Result):
     C_D : float
         |C^T C - 1|, how far from orthonormal.
     floor_C_L, floor_C_D : float
-        Those of ideal linear elements, about.
+        About what ideal linear elements have.
     span_loss : float
         |Phi - Q Phi_c X|^2 / k for the best X, in the norm of the fine mass: how much of the fine
-        eigenvectors is outside of the span of the coarse ones, carried back by the Q of
-        Simplification. Between 0 and 1.
+        eigenvectors lies outside the span of the coarse ones that the Q of Simplification carries
+        back. Between 0 and 1.
     eigenvalue_error, eigenvalue_error_max, eigenvalue_error_low : float
-        Mean relative error of the eigenvalues, zeros left out; the largest; the mean of the modes
-        2 to k / 5.
+        Relative error of the eigenvalues without the zeros: the mean, the largest, and the mean of
+        the modes 2 to k / 5.
     values, coarse_values : arrays
         Fine and coarse eigenvalues.
     judged_modes : int
@@ -1392,9 +1392,9 @@ class Alignment(_Result):
     vectors : (v, k) array
         Eigenvectors of the second mesh, aligned with those of the first.
     rotation : (k, k) array
-        vectors is the second's eigenvectors times this: orthogonal, blocks of clusters.
+        Orthogonal, a block for each cluster: vectors is the second's eigenvectors times it.
     clusters : list of (int, int)
-        First and last but one mode of each, Python's ranges.
+        First mode of each and one past its last, as in range().
     """
 
     vectors: numpy.ndarray

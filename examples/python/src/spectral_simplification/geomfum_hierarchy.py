@@ -30,7 +30,7 @@ import spectral_simplification as ss
 
 class SpectralHierarchicalMesh(HierarchicalShape):
     """The mesh and its simplification to min_n_samples vertices, which keeps spectrum_size
-    eigenpairs; `run` is what simplify() returned. Options as of
+    eigenpairs. `run` is the result of simplify(). Options as in
     spectral_simplification.simplify()."""
 
     def __init__(self, mesh, min_n_samples, spectrum_size=None, **options):

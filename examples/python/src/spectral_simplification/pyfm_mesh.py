@@ -11,9 +11,9 @@
 #     model = FunctionalMapping(coarse, other_coarse)
 #     model.preprocess(n_ev=(50, 50), k_process=100)
 #
-# pyFM uses A in products alone, so that the averaged mass, which is not diagonal, will do; pass
-# A, not its diagonal. process(k) with more than the k that are there, 200 unless k_process says
-# otherwise, computes W and A anew, lumped.
+# pyFM uses A in products alone, so the averaged mass, which is not diagonal, works; pass A, not its
+# diagonal. If process(k) asks for more eigenpairs than there are (200 unless k_process says
+# otherwise), it computes W and A anew, lumped.
 
 from pyFM.mesh import TriMesh
 
@@ -29,10 +29,10 @@ def trimesh(V, F, pairs):
 
 
 def simplified(mesh, n, k=None, **options):
-    """The TriMesh of n vertices with k eigenpairs in the mass of the run, and the run: run.P
-    carries functions of `mesh` to it, run.Q back, run.vertex_map says which vertex became which.
-    `mesh` gets W, A and the k eigenpairs of the run as well; the coarse one has n where n is below
-    k. Options as of spectral_simplification.simplify()."""
+    """Returns the TriMesh of n vertices, with k eigenpairs in the mass of the run (n if n < k), and
+    the run. run.P carries functions of `mesh` to it, run.Q carries them back, and run.vertex_map
+    says which vertex became which. `mesh` gets W, A and the k eigenpairs of the run as well.
+    Options as in spectral_simplification.simplify()."""
     run = ss.simplify(mesh.vertlist, mesh.facelist, n, k, **options)
     if len(run.used) != len(mesh.vertlist):
         raise ValueError(
