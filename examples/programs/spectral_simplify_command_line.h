@@ -57,7 +57,7 @@ inline Command_line described(Arguments& a)
   line.option("keep", a.keep, "LIST",
               "vertices that keep their positions, words separated by commas: border; sharp:ANGLE, "
               "edges whose face normals are ANGLE degrees apart or more, and corners of the "
-              "border; seams, of a texture; FILE, one index per line, from 0");
+              "border; seams: those of a texture; FILE, one index per line, from 0");
 
   line.group("Outputs");
   line.option("restriction", a.restriction, "P.mtx",

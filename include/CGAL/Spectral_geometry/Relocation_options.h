@@ -38,8 +38,8 @@ struct Relocation_options : Run_control
   bool keep_free_of_self_intersections = true;
   /// The surfaces are drawn together where they are further apart than this part of the largest
   /// distance of a fine vertex at the start. No fine vertex gets further away than that distance,
-  /// so tips stay. Positive; a large number leaves only this bound, infinity neither. With 0.5 the
-  /// Hausdorff distance is 0.8 times as large, |C|_L and errors of eigenvalues are 1.1 times as
+  /// so tips stay. Positive; a large number leaves only this bound, infinity removes both. With 0.5
+  /// the Hausdorff distance is 0.8 times as large, |C|_L and errors of eigenvalues are 1.1 times as
   /// large.
   double hausdorff_goal = 0.8;
   /// Whether boundary vertices stay where they are; otherwise they slide along the fine boundary.
@@ -52,17 +52,17 @@ struct Relocation_options : Run_control
   /// descent. Not owned. Null: `spectral_relocation()` takes its own; otherwise F and Z judge.
   const Eigenpairs* eigenpairs = nullptr;
   /// The eigenvalues of the fine mesh at unit area, in any order (each times the sum of M). The
-  /// first K coarse eigenvalues are drawn to them, at most as many as a sixth of the vertices, and
-  /// so is the mean of those that follow, up to a quarter of the vertices. Not for lumped masses,
-  /// where the shape would compensate the error of the elements. If |C|_L does not fall, or from 4
-  /// K vertices on by less than three per cent, relocation is repeated with less and less weight on
-  /// them, in the end with none, until it does. Empty: no such term.
+  /// first K coarse eigenvalues are drawn to them, at most as many as a sixth of the vertices. The
+  /// mean of the coarse ones after these rises to theirs, as far as a quarter of the vertices. Not
+  /// for lumped masses, where the shape would compensate the error of the elements. If |C|_L does
+  /// not fall, or from 4 K vertices on by less than three per cent, relocation is repeated with
+  /// less and less weight on them, in the end with none, until it does. Empty: no such term.
   Eigen::VectorXd eigenvalues;
 
   /// Largest number of steps; a step takes one value and gradient, seldom two. With 80 the errors
   /// of the eigenvalues beyond K are 1.04 times and |C|_L 1.01 times as large.
   int maximum_steps = 100;
-  /// Largest wall time, in seconds.
+  /// After this wall time, in seconds, the descent takes no further step.
   double maximum_seconds = std::numeric_limits<double>::infinity();
 };
 

@@ -45,8 +45,8 @@ returns a restriction `P` (coarse x fine) that does not depend on the simplifier
 mesh can be judged with it.
 
 Its rows are those of `closest_point_interpolation()`, corrected so that the closest points of two
-neighbours are near each other on the fine surface as well. Where they are not, the vertices of the
-smaller group are searched again, from the closest points of their neighbours. It is not the
+neighbours are near each other on the fine surface as well. Where they are not, the smaller group's
+are sought again, from the closest points of their neighbours. It is not the
 transpose of the prolongation, and may have several nonzeros in a column.
 
 Throws `std::invalid_argument` for what `closest_point_interpolation()` refuses.
@@ -61,7 +61,7 @@ edges away from the coarse vertex whose row of P is nearest on the fine surface.
 
 @param fine, coarse both meshes
 @param P coarse x fine, the restriction; if there is none, `closest_point_restriction()`. Fine
-vertices of a component without entries of P are searched everywhere.
+vertices of a component without entries of P take the closest point anywhere.
 
 Throws `std::invalid_argument` for what `closest_point_interpolation()` refuses, and a P of another
 size or with a row that does not sum to 1.
@@ -72,7 +72,7 @@ closest_point_prolongation(const Mesh_matrices& fine, const Mesh_matrices& coars
 
 /*!
 returns, ascending, the rows of any restriction that read functions off another part of the body
-than their neighbours do. `closest_point_restriction()` would search them again; a good restriction
+than their neighbours do. `closest_point_restriction()` would replace them; a good restriction
 has none.
 
 A coarse edge counts as torn if the feet of its ends, \f$ P V \f$, are further apart along the edges

@@ -182,7 +182,7 @@ struct Eigenvalue_errors
 
 /*!
 returns the relative errors of the modes `first`, ..., `last - 1` (counted from 0) of `coarse`
-against `fine`. Modes that one of both lacks, and the first `zeros` modes, are left out.
+against `fine`. Modes that either spectrum lacks, and the first `zeros` modes, are left out.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine,
                                                                   const Eigen::VectorXd& coarse,
@@ -254,7 +254,8 @@ those of the coarse mesh.
 One eigensolve per mesh serves every scale, see `unit_area_functional_map()`. What the figures mean:
 \f$ \|C\|_L \f$ and \f$ \|C\|_D \f$ vanish together if and only if the eigenpairs are kept exactly
 (theorem 1 of Lescoat et al. 2020). They depend on the mass: compare within one theta. They also
-depend on `P`: judge a simplifier that made its own `P` with `closest_point_restriction()` as well.
+depend on `P`: if a simplifier made its own, judge it with that of `closest_point_restriction()` as
+well.
 
 @param fine, fine_pairs operator of the fine mesh and at least `K` of its eigenpairs, 1.5 `K` to
 judge the modes beyond. Their tolerance must be tight: residuals count as errors of the

@@ -34,8 +34,8 @@ eigenvalues beyond K that are given. This needs the lowest 1.5 K eigenpairs of t
 16 more, found once and updated every ten steps, or every five with eigenvalues as goals.
 
 Nor does the residual fix the directions of low eigenvectors, on which biharmonic distances depend
-most. With sampled signals, and eigenpairs and eigenvalues of the fine mesh, at most twelve of them
-are kept from turning towards each other.
+most. At most twelve of them are kept from rotating into each other. This needs sampled signals, and
+eigenpairs and eigenvalues of the fine mesh.
 
 A further term draws the surfaces together where they lie furthest apart,
 `Relocation_options::hausdorff_goal`. The spectrum hardly sees these places.

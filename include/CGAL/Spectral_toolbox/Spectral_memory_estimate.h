@@ -111,7 +111,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
 
 /*!
  * Returns an estimate of the memory in bytes to judge a result by
- * `Spectral_geometry::evaluate_spectrum()`. It holds first the eigenpairs of the whole input,
+ * `Spectral_geometry::evaluate_spectrum()`, which first holds the eigenpairs of the whole input,
  * whatever `Spectral_edge_collapse_options::pre_simplify` was, then also those of the result. The
  * evaluation comes after the run of `estimated_memory()`: the larger number counts.
  *

@@ -22,7 +22,7 @@ Shape Analysis*, 2014,
 \psi(\kappa_2)} \, n n^\top, \qquad \psi(\kappa) = \frac{1}{1 + \alpha \, r \, |\kappa|} , \qquad
 \rho = 1, \f]
 with the principal curvatures and directions of a jet of degree two, fitted to the first rings that
-hold at least 16 vertices, with 64 neighbours of a hub (F. Cazals and M. Pouget,
+hold at least 16 vertices, with at most 64 neighbours of a hub (F. Cazals and M. Pouget,
 `CGAL::Monge_via_jet_fitting`), and \f$r = \sqrt{A / 4 \pi}\f$, the radius of the sphere of the same
 area: D does not change with the scale. Where too few vertices can be fitted to, D is the identity.
 

@@ -85,11 +85,11 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// quadrics of `shape` alone, as with `pre_simplify`. But F, Z and P follow, so eigenpairs,
   /// relocation and the error refer to the input. Only the last collapses determine the quality:
   /// with 7 and with 15 the norms were the same in the mean of 106 runs, and a mesh of 80 N took
-  /// half the time. From 1; infinite: never. It is ignored, and the metric decides every collapse,
-  /// without `shape`, with a `placement` other than `free`, with `coefficients`, `binary`,
-  /// `preserve_border`, the Dirichlet condition or `maximum_error`, and with a filter or a visitor.
-  /// Levels of `Spectral_edge_collapse_result::log` above this number of vertices come from
-  /// quadrics.
+  /// half the time. From 1; infinite: never. It is ignored in these cases, so that the metric
+  /// decides every collapse: no `shape`; a `placement` other than `free`; `coefficients`, `binary`,
+  /// `preserve_border`, the Dirichlet condition or `maximum_error`; a filter or a visitor. Levels
+  /// of `Spectral_edge_collapse_result::log` with more than this many times the target's vertices
+  /// come from quadrics.
   double quadrics_above = 7;
 
   /// Moves the remaining vertices to preserve the spectrum better, see

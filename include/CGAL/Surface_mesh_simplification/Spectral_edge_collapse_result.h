@@ -36,7 +36,7 @@ struct Spectral_edge_collapse_result
   /// one sentence if the run ended neither at the target nor at the error bound, else empty
   std::string explanation;
   std::vector<std::string> warnings; ///< one sentence each: what was done, but is not advised
-  Spectral_refusals refusals;        ///< candidates that were given up, by cause
+  Spectral_refusals refusals;        ///< candidates that were refused, by cause
   std::size_t evaluations = 0;       ///< how often an edge was costed
 
   double seconds_pre_simplification = 0; ///< wall seconds of the collapses of quadrics
@@ -57,9 +57,9 @@ struct Spectral_edge_collapse_result
   Spectral_geometry::Relocation_result relocation;
 
   /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in
-  /// the order of the input. `Surface_mesh::collect_garbage()` changes the order of rows: write or
-  /// copy the mesh without calling it, or use `Spectral_policies`, whose `restriction()` follows
-  /// the mesh as it is.
+  /// the order of the input. `Surface_mesh::collect_garbage()` changes the order of
+  /// `vertices(mesh)`, and the rows no longer fit: write or copy the mesh without calling it, or
+  /// use `Spectral_policies`, whose `restriction()` follows the mesh as it is.
   Eigen::SparseMatrix<double> restriction;
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
   /// coefficients of the coarse operator: `Spectral_options::coefficients` merged by the collapses,

@@ -170,8 +170,8 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
 }
 
 /// Runs `quadric_collapses()` on arrays with these options, then changes the mesh accordingly.
-/// `kept`: by positions in `vertices(mesh)`, or empty. It can be cancelled until the mesh changes.
-/// Returns the log and the slots of the vertices that are left.
+/// `kept`: by positions in `vertices(mesh)`, or empty. The run can be cancelled until the mesh
+/// changes. Returns the log and the slots of the vertices that are left.
 template <class TriangleMesh, class NamedParameters>
 std::pair<Collapse_log, std::vector<Eigen::Index>>
 collapse_by_quadrics(TriangleMesh& mesh, const std::size_t target, const std::vector<char>& kept,

@@ -1325,7 +1325,7 @@ class Evaluation(_Result):
         About what ideal linear elements have.
     span_loss : float
         |Phi - Q Phi_c X|^2 / k for the best X, in the norm of the fine mass: how much of the fine
-        eigenvectors lies outside the span of the coarse ones that the Q of Simplification carries
+        eigenvectors lies outside the span of the coarse ones, which the Q of Simplification carries
         back. Between 0 and 1.
     eigenvalue_error, eigenvalue_error_max, eigenvalue_error_low : float
         Relative error of the eigenvalues without the zeros: the mean, the largest, and the mean of

@@ -12,8 +12,8 @@
 #     model.preprocess(n_ev=(50, 50), k_process=100)
 #
 # pyFM uses A in products alone, so the averaged mass, which is not diagonal, works; pass A, not its
-# diagonal. If process(k) asks for more eigenpairs than there are (200 unless k_process says
-# otherwise), it computes W and A anew, lumped.
+# diagonal. By default pyFM calls process(200), see k_process. With fewer eigenpairs than it asks
+# for it computes W and A anew, lumped.
 
 from pyFM.mesh import TriMesh
 

@@ -32,7 +32,7 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// The upper median; 0 of no numbers.
+/// The upper median; 0 if there are no numbers.
 inline double median(Eigen::VectorXd numbers)
 {
   double *const begin = numbers.data(), *const end = begin + numbers.size(),

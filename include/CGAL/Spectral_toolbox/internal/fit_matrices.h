@@ -11,8 +11,9 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// A matrix stored in panels of eight columns. The last panel is padded with zeros, and a copy with
-/// zero rows to a multiple of eight: rows 8 p .. 8 p + 7 of a panel are a block for the kernels.
+/// A matrix stored in panels of eight columns. The last panel is padded with zeros. A copy also
+/// gets rows of zeros, up to a multiple of eight: rows 8 p .. 8 p + 7 of a panel are a block for
+/// the kernels.
 class Panel_matrix
 {
 public:

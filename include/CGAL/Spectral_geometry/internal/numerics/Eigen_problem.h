@@ -151,7 +151,8 @@ inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
 }
 
 // A sign must not depend on a tie. The largest entries tie on symmetric shapes, and all odd moments
-// of antisymmetric vectors vanish. No symmetry makes an entry exactly 0.618... times the largest.
+// of antisymmetric vectors vanish. Ties with 0.618... times the largest are
+// rare: five-fold symmetry can make one.
 inline void fix_signs(Eigen::MatrixXd& vectors)
 {
   for(Eigen::Index k = 0; k < vectors.cols(); ++k) {

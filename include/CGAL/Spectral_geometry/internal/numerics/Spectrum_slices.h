@@ -11,7 +11,7 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Computes many pairs in slices of some hundred, each with a shift among its values (spectrum
+/// Computes many pairs in slices of about 120, each with a shift among its values (spectrum
 /// slicing: Grimes, Lewis and Simon 1994). A single Krylov space would be as large as all pairs,
 /// and the cost of its projected problem cubic in their number.
 ///
@@ -37,7 +37,8 @@ public:
     , m_lanczos(m_part, largest, options)
   {}
 
-  /// Throws `Not_converged` where no shift serves for a slice, or copies are missing.
+  /// Throws `Not_converged` if no shift serves for a slice, a slice has no end, or copies are
+  /// missing.
   Eigenpairs compute()
   {
     while(m_found < m_pairs.size())

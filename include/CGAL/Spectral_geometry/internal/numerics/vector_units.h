@@ -36,9 +36,9 @@ using Aligned_buffer = std::vector<double, boost::alignment::aligned_allocator<d
 
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
 /// Four doubles at any address, or two where wide units are missing: there GCC makes vectors of
-/// four fifteen times slower. They are never passed or returned by value: that ABI would depend on
-/// -m flags. Nor are they copied by memcpy: GCC splits the copy into halves for the baseline before
-/// the variant for wide units sees it (five times slower).
+/// four slower by a factor of fifteen. They are never passed or returned by value: that ABI would
+/// depend on -m flags. Nor are they copied by memcpy: GCC splits the copy into halves for the
+/// baseline before the variant for wide units sees it (five times slower).
 typedef double Four_doubles __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double Two_doubles __attribute__((vector_size(16), aligned(8), may_alias));
 #endif

@@ -18,12 +18,12 @@ They may be rotated although their eigenvalues are right. Biharmonic and diffusi
 this at once. U holds the coarse eigenvectors of the first m modes with a goal, and of
 eight more. \f$ Y = U C (C^T C)^{-1/2} \f$ with \f$ C = U^T \widetilde B P \Phi \f$ are the
 orthonormal functions in the span of U that are nearest to the m fine eigenvectors. If nothing is
-turned, the coarse operator is diagonal in Y. The term is the mean square of what is beside the
+rotated, the coarse operator is diagonal in Y. The term is the mean square of what is beside the
 diagonal, \f[ \frac{1}{\epsilon^2} \sum_{j \ne k} w_{jk} h_{jk}^2 \Big/ \sum_{j \ne k} w_{jk},
 \qquad h_{jk} = \frac{Y_j^T \widetilde L Y_k}{\sqrt{\lambda_j \lambda_k}}, \qquad w_{jk} =
 \frac{\lambda_2^2}{\lambda_j \lambda_k}, \f] all at unit area, with the epsilon of `Spectrum_term`.
-It divides by no difference of eigenvalues: modes of one eigenvalue may turn as they like, which no
-distance sees. Where the second eigenvalue is far below the others, beyond a thin neck, the pairs
+It divides by no difference of eigenvalues: modes of one eigenvalue may rotate as they like, which
+no distance sees. Where the second eigenvalue is far below the others, beyond a thin neck, the pairs
 with it have nearly all of the weight.
 
 Between two calls of `refresh()` Y stays. To first order in the movement the changes of L and of B

@@ -103,7 +103,7 @@ private:
 };
 
 /// Keeps area and volume between those of the coarse and of the fine mesh, up to a tolerance. The
-/// penalty begins at half the tolerance and is steep enough to end the descent before the whole.
+/// penalty begins at half the tolerance and is steep enough to keep the change below the whole.
 class Size_bounds
 {
 public:

@@ -74,8 +74,8 @@ public:
   }
 
   /// Calls `visit(item)` for items below `node` whose boxes are nearer to `p` than the square root
-  /// of `bound`, which `visit` lowers; near boxes first. The box of a single item in the tree is
-  /// not tested.
+  /// of `bound`, which `visit` lowers; near boxes first. If the tree has only one item, its box
+  /// is not tested.
   template <class Visit>
   void visit_near(const Eigen::Vector3d& p, const double& bound, const Visit& visit,
                   const std::size_t node = 1) const

@@ -15,9 +15,10 @@ namespace CGAL::Spectral_geometry::internal {
 /// Rows of P that were followed on the surface.
 struct Followed_rows
 {
-  Eigen::SparseMatrix<double>
-      P; ///< with those rows found anew that read functions off another part
-  std::vector<Eigen::Index> off; ///< rows whose feet those of their neighbours do not reach
+  /// with the rows replaced that read functions off another part
+  Eigen::SparseMatrix<double> P;
+  /// rows whose foot cannot be reached from the feet of their neighbours
+  std::vector<Eigen::Index> off;
 };
 
 /*!

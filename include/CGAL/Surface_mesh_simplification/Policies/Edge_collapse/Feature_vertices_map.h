@@ -21,10 +21,10 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * Tells which vertices of a mesh lie at its features: on the border, on edges where the normals of
- * both faces are at least an angle apart, and at corners where the border itself turns by that
- * angle. As named parameter `vertex_is_constrained_map` of `spectral_edge_collapse()` or
- * `Spectral_policies` it keeps these vertices, and their edges, in place:
+ * Tells which vertices of a mesh lie at its features: on the border if asked for, on edges where
+ * the normals of both faces are at least an angle apart, and at corners where the border itself
+ * turns by that angle. As named parameter `vertex_is_constrained_map` of `spectral_edge_collapse()`
+ * or `Spectral_policies` it keeps these vertices, and their edges, in place:
  *
  * \code
  * spectral_edge_collapse(mesh, N, {},

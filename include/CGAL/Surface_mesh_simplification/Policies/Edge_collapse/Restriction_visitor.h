@@ -119,7 +119,7 @@ class Restriction_visitor
 
 public:
   using Triangle_mesh = TriangleMesh; ///< the type of the mesh
-  using User_visitor = UserVisitor;   ///< the type of the visitor that calls are handed on to
+  using User_visitor = UserVisitor;   ///< the type of the visitor to which calls are forwarded
 
   /// Takes the mesh in its present state as the fine mesh.
   explicit Restriction_visitor(Triangle_mesh& mesh, User_visitor user = User_visitor())

@@ -89,10 +89,11 @@ struct Spectral_options : Spectral_geometry::Run_control
   /// r, the number of random mixtures that the metric sees in place of the signals; 0: the signals
   /// themselves. E is the squared norm of a linear function of the signals, so mixtures estimate it
   /// without bias, with a relative standard deviation of at most sqrt(2 / r). This is accurate
-  /// enough for the order of the collapses, and the time of a cost does not depend on K. Up to r
-  /// signals are not mixed. Multiples of 16 need no padding. |C|_L after relocation, relative to
-  /// version 0.2 with all 100 eigenvectors, was 1.08 with 16, 1.02 with 32 and 1.01 with all 100
-  /// (geometric means of twelve meshes). Relocation sees at least 64. Not negative.
+  /// enough for the order of the collapses, and the time of a cost does not depend on K. If there
+  /// are at most r signals, they are not mixed. Multiples of 16 need no padding. |C|_L after
+  /// relocation, relative to version 0.2 with all 100 eigenvectors, was 1.08 with 16, 1.02 with 32
+  /// and 1.01 with all 100 (geometric means of twelve meshes). Relocation sees at least 64. Not
+  /// negative.
   Eigen::Index number_of_mixtures = 32;
 
   /// Seed of the mixtures, or of the noise. The same seed gives the same result everywhere.
@@ -122,7 +123,7 @@ struct Spectral_options : Spectral_geometry::Run_control
   /// No collapse puts a face through another, unless a face that it replaces went through that face
   /// already. If the chosen position would do so, both endpoints and the midpoint are tried,
   /// provided that they cost at most 16 times as much as that position or as recent collapses;
-  /// otherwise the edge is postponed until an adjacent edge collapses. Where faces of the input
+  /// otherwise the edge is refused until an adjacent edge collapses. Where faces of the input
   /// cross already, as in scans, the check is given up after n/20 refusals in a run of the loop, n
   /// being the number of input vertices. Positions of a wrapped placement are checked by
   /// `Spectral_filter` alone. Quadrics keep the promise for the mesh that they end with.
@@ -140,8 +141,8 @@ struct Spectral_options : Spectral_geometry::Run_control
   Spectral_geometry::Operator_coefficients coefficients;
 
   /// The condition on functions at the border. With `dirichlet` they vanish there, and
-  /// `preserve_border` is set: a border vertex combines border vertices alone, wherever a wrapper
-  /// of the placement puts it. Signals of your own must vanish on the border.
+  /// `preserve_border` is set: the row of P of a border vertex combines border vertices alone,
+  /// wherever a wrapper of the placement puts it. Signals of your own must vanish on the border.
   Spectral_geometry::Boundary_condition boundary = Spectral_geometry::Boundary_condition::neumann;
 
   /// Returns, for positions V and triangles T, the operator whose eigenpairs are kept, if it is not
@@ -172,8 +173,8 @@ struct Spectral_options : Spectral_geometry::Run_control
 
   /// How the eigenpairs are computed if they are not given; `threads` of the run is used if it is
   /// larger. A rougher basis would do for the metric (the norms of the result do not change up to a
-  /// tolerance of 1e-4), but 1e-8 costs least in all. From there on Z = F Lambda needs no rows of
-  /// its own in the loop, and the pairs can judge the result.
+  /// tolerance of 1e-4), but 1e-8 costs least in all: Z is then F Lambda without a solve, and
+  /// the pairs can judge the result.
   Spectral_geometry::Eigenpairs_options eigenpairs_options =
       Spectral_geometry::Eigenpairs_options::with_tolerance(1e-8);
 

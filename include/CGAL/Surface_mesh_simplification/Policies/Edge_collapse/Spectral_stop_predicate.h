@@ -17,7 +17,8 @@ namespace CGAL::Surface_mesh_simplification {
 /*!
  * Ends a run at a number of vertices, at an error, or when the user cancels it, whichever comes
  * first, and calls `Spectral_options::progress` about a hundred times. `spectral_edge_collapse()`
- * uses it. With `edge_collapse()` collapses can be cancelled only here, where the mesh is valid.
+ * uses it. In a run of `edge_collapse()`, collapses can be cancelled only here, where the mesh is
+ * valid.
  *
  * \cgalModels{StopPredicate}
  *

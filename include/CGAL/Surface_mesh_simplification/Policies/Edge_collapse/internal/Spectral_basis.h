@@ -348,8 +348,8 @@ inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& 
   return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
-/// Whether no eigenvalue is further from 0 than twice its residual: an exact one lies within one.
-/// With K = 1 and needles the solver may return a lambda of 1e-5 for 0.
+/// Whether no eigenvalue is further from 0 than twice its residual: an exact eigenvalue lies within
+/// one residual. With K = 1 and needles the solver may return a lambda of 1e-5 for 0.
 inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& op,
                                      const Spectral_geometry::Eigenpairs& pairs,
                                      const Eigen::VectorXd& residuals)

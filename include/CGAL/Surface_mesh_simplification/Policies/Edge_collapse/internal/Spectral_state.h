@@ -308,7 +308,7 @@ public:
   const Spectral_geometry::Mesh_matrices& fine() const { return m_fine; }
   /// What the metric preserves of it, but for the signals that the collapses carry.
   const Spectral_basis& basis() const { return m_core.basis(); }
-  /// Candidates that were given up so far, over all runs.
+  /// Candidates that were refused so far, over all runs.
   Spectral_refusals refusals() const
   {
     Spectral_refusals all = m_refusals;

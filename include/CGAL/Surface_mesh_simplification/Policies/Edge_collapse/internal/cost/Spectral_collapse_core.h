@@ -140,7 +140,7 @@ public:
   /// guarded.
   bool crosses(Slot u, Slot v, const Eigen::Vector3d& point);
 
-  /// How often an edge was given up because of that.
+  /// How often an edge was refused because of that.
   std::size_t number_of_crossings() const { return m_number_of_crossings; }
 
   /// The cost of collapsing to a point that somebody else chose; the weights follow from its

@@ -97,9 +97,9 @@ private:
  * it spreads vertices evenly. Weights are areas, so that the resolution of the input does not
  * matter.
  *
- * Before set_geometry() it is empty and costs nothing. It also limits what a change of E can count,
- * see `Spectral_options::largest_loss`: otherwise a few folds of the input (eyes, nostrils) would
- * never be collapsed.
+ * Before set_geometry() it is empty and costs nothing. It also limits how much a change of E can
+ * count, see `Spectral_options::largest_loss`: otherwise a few folds of the input (eyes, nostrils)
+ * would never be collapsed.
  */
 class Spectral_shape_term
 {
