@@ -7,9 +7,9 @@
 #
 # Makes the tables, the figures and the data of this folder anew, but for those of experiments.md,
 # from the commit that is checked out and that BUILD was built from. That takes two and a half
-# hours on two cores. Nothing else may run while it says "times", in the first half. The text around the marks,
-# and what it says of the numbers, is for a human: at the end measure.py --check lists what
-# README.md, reference.md and measurements.md quote wrongly.
+# hours on two cores. Nothing else may run while it says "times", in the first half. The text around
+# the marks, and what it says of the numbers, is for a human: at the end measure.py --check lists
+# what README.md, reference.md and measurements.md quote wrongly.
 #
 #   BUILD      where the programs, spectral_benchmark, garland_heckbert and the Python module were
 #              built, for release, with a CGAL of 6.1 or later; python3 needs what pictures.py does
