@@ -12,6 +12,7 @@ import sys
 import tempfile
 import types
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -103,21 +104,33 @@ def installed(name):
 if not installed("pyFM.mesh"):
     record({"pyFM": {}, "pyFM.mesh": dict(TriMesh=TriMesh)})
 if not installed("geomfum.shape.hierarchical"):
-    record({"geomstats": {}, "geomstats.backend": dict(array=np.array, to_numpy=np.asarray), "geomfum": {},
+    record({"geomstats": {}, "geomfum": {}, "geomfum.wrap": {}, "geomfum.shape": {},
+            "geomstats.backend": dict(array=np.array, to_numpy=np.asarray),
             "geomfum.backend": dict(sparse=types.SimpleNamespace(from_scipy_csc=lambda m: m)),
-            "geomfum.linalg": dict(matvecmul=matvecmul), "geomfum.basis": dict(LaplaceEigenBasis=Basis),
-            "geomfum.wrap": {}, "geomfum._registry": dict(register_hierarchical_mesh=HierarchicalMesh.register),
-            "geomfum.operator": dict(Laplacian=Laplacian), "geomfum.shape": {},
-            "geomfum.shape.hierarchical": dict(HierarchicalShape=HierarchicalShape, HierarchicalMesh=HierarchicalMesh),
-            "geomfum.shape.mesh": dict(TriangleMesh=Shape)})
+            "geomfum.linalg": dict(matvecmul=matvecmul),
+            "geomfum.basis": dict(LaplaceEigenBasis=Basis),
+            "geomfum.operator": dict(Laplacian=Laplacian),
+            "geomfum._registry": dict(register_hierarchical_mesh=HierarchicalMesh.register),
+            "geomfum.shape.mesh": dict(TriangleMesh=Shape),
+            "geomfum.shape.hierarchical": dict(HierarchicalShape=HierarchicalShape,
+                                               HierarchicalMesh=HierarchicalMesh)})
+
+# From here on these names are the classes of the packages, where they are installed.
+from geomfum.shape.hierarchical import HierarchicalMesh
+from geomfum.shape.mesh import TriangleMesh
+from pyFM.mesh import TriMesh
+from spectral_simplification import geomfum_hierarchy, pyfm_mesh
 
 V, F = sphere(3)
 
 
+def hierarchy(mesh, **options):
+    options.update(which="spectral_simplification", min_n_samples=150)
+    return HierarchicalMesh.from_registry(mesh, **options)
+
+
 class Adapters(unittest.TestCase):
     def test_pyFM(self):
-        from pyFM.mesh import TriMesh
-        from spectral_simplification import pyfm_mesh
         fine = TriMesh(V, F)
         coarse, run = pyfm_mesh.simplified(fine, 150, 30, preset="paper")
         self.assertEqual(len(coarse.vertlist), 150)
@@ -130,45 +143,33 @@ class Adapters(unittest.TestCase):
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         self.assertAlmostEqual(coarse.A.sum(), np.linalg.norm(normals, axis=1).sum() / 2)
         self.assertLess(abs(coarse.A.sum() / fine.A.sum() - 1), 0.1)
-        self.assertLess(np.linalg.norm(abs(np.diag(coarse.project(run.P @ fine.eigenvectors))[:10]) - 1), 0.2)
+        carried = np.diag(coarse.project(run.P @ fine.eigenvectors))[:10]
+        self.assertLess(np.linalg.norm(abs(carried) - 1), 0.2)
 
     def test_pyFM_with_signals(self):
-        from pyFM.mesh import TriMesh
-        from spectral_simplification import pyfm_mesh
         fine = TriMesh(V, F)
         coarse, _ = pyfm_mesh.simplified(fine, 150, signals=V)
-        self.assertEqual((fine.eigenvectors.shape, coarse.eigenvectors.shape), ((642, 3), (150, 3)))
+        shapes = fine.eigenvectors.shape, coarse.eigenvectors.shape
+        self.assertEqual(shapes, ((642, 3), (150, 3)))
 
     def test_the_operator_is_that_of_the_run(self):
-        from pyFM.mesh import TriMesh
-        from spectral_simplification import pyfm_mesh, geomfum_hierarchy
-        from geomfum.shape.hierarchical import HierarchicalMesh
-        from geomfum.shape.mesh import TriangleMesh
-        options = dict(coefficients=ss.weighted_coefficients(1 + V[:, 0]**2), k=200)
-        coarse, run = pyfm_mesh.simplified(TriMesh(V, F), 150, **options)
+        coefficients = ss.weighted_coefficients(1 + V[:, 0]**2)
+        coarse, run = pyfm_mesh.simplified(TriMesh(V, F), 150, k=200, coefficients=coefficients)
         self.assertEqual(coarse.eigenvectors.shape, (150, 150))  # fewer vertices than modes
         self.assertEqual(abs(coarse.A - run.coarse_eigenpairs().M).nnz, 0)
-        both = HierarchicalMesh.from_registry(TriangleMesh(V, F), which="spectral_simplification", min_n_samples=150,
-                                              spectrum_size=200, coefficients=options["coefficients"])
+        both = hierarchy(TriangleMesh(V, F), spectrum_size=200, coefficients=coefficients)
         self.assertEqual(both.low.basis.full_vecs.shape, (150, 150))
-        with self.assertRaisesRegex(ValueError, r"of 642 vertices take part.* pass TriMesh\(\*run.part"):
+        words = r"of 642 vertices take part.* pass TriMesh\(\*run.part"
+        with self.assertRaisesRegex(ValueError, words):
             pyfm_mesh.simplified(TriMesh(V, F), 150, 30, mask=V[:, 0] < 1)
 
     def test_geomfum_with_signals(self):
-        from spectral_simplification import geomfum_hierarchy  # registers
-        from geomfum.shape.hierarchical import HierarchicalMesh
-        from geomfum.shape.mesh import TriangleMesh
-        both = HierarchicalMesh.from_registry(TriangleMesh(V, F), which="spectral_simplification", min_n_samples=150,
-                                              signals=V)
+        both = hierarchy(TriangleMesh(V, F), signals=V)
         self.assertEqual(both.low.basis.full_vecs.shape, (150, 3))
 
     def test_geomfum(self):
-        from spectral_simplification import geomfum_hierarchy
-        from geomfum.shape.hierarchical import HierarchicalMesh
-        from geomfum.shape.mesh import TriangleMesh
         mesh = TriangleMesh(V, F)
-        both = HierarchicalMesh.from_registry(mesh, which="spectral_simplification", min_n_samples=150, spectrum_size=30,
-                                              preset="paper")
+        both = hierarchy(mesh, spectrum_size=30, preset="paper")
         self.assertIsInstance(both, geomfum_hierarchy.SpectralHierarchicalMesh)
         self.assertIs(both.high, mesh)
         self.assertEqual(both.low.n_vertices, 150)
@@ -183,24 +184,21 @@ class Adapters(unittest.TestCase):
 
 class Script(unittest.TestCase):
     def test_the_script(self):
-        with tempfile.TemporaryDirectory() as folder:
+        script, names = "simplify_match_plot.py", {}
+        with open(os.path.join(FOLDER, script)) as file:
+            code = compile(file.read(), script, "exec")
+        words = [script, "X.off", "Y.off", "picture.png", "150"]
+        self.addCleanup(os.chdir, os.getcwd())
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch("sys.argv", words):
+            os.chdir(folder)
             for name, positions in ("X.off", V), ("Y.off", V * [1, 1, 1.05]):
-                with open(os.path.join(folder, name), "w") as file:
+                with open(name, "w") as file:
                     print("OFF\n%d %d 0" % (len(V), len(F)), file=file)
                     np.savetxt(file, positions)
-                    np.savetxt(file, np.column_stack([np.full(len(F), 3), F]), "%d")
-            arguments, here = sys.argv, os.getcwd()
-            try:
-                os.chdir(folder)
-                sys.argv = ["simplify_match_plot.py", "X.off", "Y.off", "picture.png", "150"]
-                with open(os.path.join(FOLDER, sys.argv[0])) as file:
-                    names = {}
-                    exec(compile(file.read(), sys.argv[0], "exec"), names)
-                self.assertGreater(os.path.getsize("picture.png"), 10000)
-            finally:
-                sys.argv = arguments
-                os.chdir(here)
-            self.assertLess(np.linalg.norm(V[names["matched"].map] - V, axis=1).mean(), 0.02)
+                    np.savetxt(file, np.insert(F, 0, 3, axis=1), "%d")
+            exec(code, names)
+            self.assertGreater(os.path.getsize("picture.png"), 10000)
+        self.assertLess(np.linalg.norm(V[names["matched"].map] - V, axis=1).mean(), 0.02)
 
 
 if __name__ == "__main__":

@@ -10,19 +10,21 @@ import numpy as np
 def sphere(levels):
     """A subdivided icosahedron with bumps and three different axes, 10 * 4^levels + 2 vertices."""
     g = (1 + 5 ** 0.5) / 2
-    V = np.array([(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g),
-                  (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)])
-    F = np.array([(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2),
-                  (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11),
-                  (6, 2, 10), (8, 6, 7), (9, 8, 1)])
+    V = np.array([(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g),
+                  (0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)])
+    F = np.array([(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4),
+                  (11, 10, 2), (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8),
+                  (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)])
     for _ in range(levels):
         sides = np.sort(np.vstack([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
         edges, which = np.unique(sides, axis=0, return_inverse=True)
         a, b, c = (len(V) + which.reshape(3, -1)).astype(F.dtype)
         V = np.vstack([V, V[edges].mean(axis=1)])
-        F = np.vstack([np.column_stack(t) for t in ((F[:, 0], a, c), (a, F[:, 1], b), (c, b, F[:, 2]), (a, b, c))])
+        corners = (F[:, 0], a, c), (a, F[:, 1], b), (c, b, F[:, 2]), (a, b, c)
+        F = np.vstack([np.column_stack(t) for t in corners])
     V /= np.linalg.norm(V, axis=1)[:, None]
-    bumps = 1 + 0.2 * np.sin(3 * V[:, 0] + 0.5) * np.cos(4 * V[:, 1] + 0.8) + 0.1 * np.sin(2 * V[:, 2] + V[:, 0])
+    x, y, z = V.T
+    bumps = 1 + 0.2 * np.sin(3 * x + 0.5) * np.cos(4 * y + 0.8) + 0.1 * np.sin(2 * z + x)
     return V * bumps[:, None] * [2, 1.3, 0.8], F
 
 
