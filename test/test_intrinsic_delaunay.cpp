@@ -41,14 +41,17 @@ double difference(const Eigen::SparseMatrix<double>& A, const Eigen::SparseMatri
          Eigen::MatrixXd(B).cwiseAbs().maxCoeff();
 }
 
+// Zero where none is positive.
 double largest_off_diagonal(const Laplace_operator& op)
 {
-  double result = -std::numeric_limits<double>::infinity();
-  for(Eigen::Index v = 0; v < op.L.cols(); ++v)
-    for(Eigen::SparseMatrix<double>::InnerIterator entry(op.L, v); entry; ++entry)
-      if(entry.row() != v)
-        result = (std::max)(result, entry.value());
-  return result;
+  Eigen::MatrixXd L = op.L;
+  L.diagonal().setZero();
+  return L.maxCoeff();
+}
+
+Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& A)
+{
+  return A.selfadjointView<Eigen::Lower>().eigenvalues();
 }
 
 double angle(const shapes::Matrices& mesh, const int at, const int p, const int q)
@@ -62,9 +65,8 @@ shapes::Matrices stretched_grid()
 {
   shapes::Matrices mesh = shapes::irregular_grid_matrices(14, 10, 0.3);
   mesh.V.col(0) *= 20.;
-  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
-    const Vector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)),
-                   r = mesh.V.row(mesh.T(f, 2));
+  for(const auto t : mesh.T.rowwise()) {
+    const Vector3d p = mesh.V.row(t[0]), q = mesh.V.row(t[1]), r = mesh.V.row(t[2]);
     REQUIRE((q - p).cross(r - p).z() > 0.);
   }
   return mesh;
@@ -150,10 +152,12 @@ std::vector<shapes::Matrices> closed_shapes()
 // is none. Its L, and how many sides have a vertex at both ends.
 Eigen::MatrixXd slow_intrinsic_stiffness(const shapes::Matrices& mesh, int& loops)
 {
+  using Side = std::pair<int, int>; // a face and the corner of it that is opposite
   struct Corner
   {
-    int vertex, face, side; // what the opposite side is glued to
-    double length;          // of that side
+    int vertex;
+    Side glued;    // to the opposite side
+    double length; // of that side
   };
   std::vector<std::array<Corner, 3>> faces(std::size_t(mesh.T.rows()));
   const int m = int(faces.size());
@@ -163,11 +167,11 @@ Eigen::MatrixXd slow_intrinsic_stiffness(const shapes::Matrices& mesh, int& loop
   for(int f = 0; f < m; ++f)
     for(int k = 0; k < 3; ++k) {
       const int i = mesh.T(f, (k + 1) % 3), j = mesh.T(f, (k + 2) % 3);
-      at(f, k) = {mesh.T(f, k), -1, -1, (mesh.V.row(i) - mesh.V.row(j)).norm()};
+      at(f, k) = {mesh.T(f, k), {-1, -1}, (mesh.V.row(i) - mesh.V.row(j)).norm()};
       for(int g = 0; g < m; ++g)
         for(int l = 0; l < 3; ++l)
           if(mesh.T(g, (l + 1) % 3) == j && mesh.T(g, (l + 2) % 3) == i)
-            at(f, k).face = g, at(f, k).side = l;
+            at(f, k).glued = {g, l};
     }
   const auto angle_at = [&](int f, int k) {
     const double a = at(f, k).length, b = at(f, k + 1).length, c = at(f, k + 2).length;
@@ -177,45 +181,35 @@ Eigen::MatrixXd slow_intrinsic_stiffness(const shapes::Matrices& mesh, int& loop
     flipped = false;
     for(int f = 0; f < m; ++f)
       for(int k = 0; k < 3; ++k) {
-        const int g = at(f, k).face, l = at(f, k).side;
+        const auto [g, l] = at(f, k).glued;
         if(g < 0 || angle_at(f, k) + angle_at(g, l) < shapes::pi + 1e-9)
           continue;
         REQUIRE(g != f);
-        const Corner c = at(f, k), i = at(f, k + 1), j = at(f, k + 2),
-                     d = at(g, l); // (c, i, j), (d, j, i)
+        // The faces are (c, i, j) and (d, j, i).
+        const Corner c = at(f, k), i = at(f, k + 1), j = at(f, k + 2), d = at(g, l);
         const Corner id = at(g, l + 1), dj = at(g, l + 2);
-        const double at_i = angle_at(f, k + 1) + angle_at(g, l + 2), ci = j.length,
-                     length_id = id.length;
-        const double cd =
-            std::sqrt(ci * ci + length_id * length_id - 2 * ci * length_id * std::cos(at_i));
+        const double at_i = angle_at(f, k + 1) + angle_at(g, l + 2);
+        const double cd = std::sqrt(j.length * j.length + id.length * id.length -
+                                    2 * j.length * id.length * std::cos(at_i));
         // Outer sides in their new places: f = (c, i, d), g = (d, j, c).
-        const std::array<Corner, 3> new_f = {{{c.vertex, id.face, id.side, id.length},
-                                              {i.vertex, g, 1, cd},
-                                              {d.vertex, j.face, j.side, ci}}};
-        const std::array<Corner, 3> new_g = {{{d.vertex, i.face, i.side, i.length},
-                                              {j.vertex, f, 1, cd},
-                                              {c.vertex, dj.face, dj.side, dj.length}}};
-        const int old[4][2] = {
-            {g, (l + 1) % 3}, {f, (k + 2) % 3}, {f, (k + 1) % 3}, {g, (l + 2) % 3}};
-        const int now[4][2] = {{f, 0}, {f, 2}, {g, 0}, {g, 2}};
-        faces[std::size_t(f)] = new_f;
-        faces[std::size_t(g)] = new_g;
-        for(const auto& place : now) { // glued to a side that has moved as well
-          Corner& side = at(place[0], place[1]);
-          for(int o = 0; o < 4; ++o)
-            if(side.face == old[o][0] && side.side == old[o][1]) {
-              side.face = now[o][0];
-              side.side = now[o][1];
-              break;
-            }
+        faces[std::size_t(f)] = {{{c.vertex, id.glued, id.length},
+                                  {i.vertex, {g, 1}, cd},
+                                  {d.vertex, j.glued, j.length}}};
+        faces[std::size_t(g)] = {{{d.vertex, i.glued, i.length},
+                                  {j.vertex, {f, 1}, cd},
+                                  {c.vertex, dj.glued, dj.length}}};
+        const std::map<Side, Side> moved = {{{g, (l + 1) % 3}, {f, 0}},
+                                            {{f, (k + 2) % 3}, {f, 2}},
+                                            {{f, (k + 1) % 3}, {g, 0}},
+                                            {{g, (l + 2) % 3}, {g, 2}}};
+        for(const auto& [from, to] : moved) { // glued to a side that has moved as well
+          Side& glued = at(to.first, to.second).glued;
+          if(const auto place = moved.find(glued); place != moved.end())
+            glued = place->second;
         }
-        for(const auto& place : now) {
-          const Corner side = at(place[0], place[1]);
-          if(side.face >= 0) {
-            at(side.face, side.side).face = place[0];
-            at(side.face, side.side).side = place[1];
-          }
-        }
+        for(const auto& [from, to] : moved)
+          if(const Side other = at(to.first, to.second).glued; other.first >= 0)
+            at(other.first, other.second).glued = to;
         flipped = true;
       }
   }
@@ -268,8 +262,7 @@ TEST_CASE("A flipped Laplacian has no positive weights, sums to zero and keeps t
     CHECK(largest_off_diagonal(before) > 0.01);
     for(const Mass mass : masses) {
       const Laplace_operator op = intrinsic(mesh, mass);
-      const Eigen::Index n = op.L.rows();
-      const Eigen::VectorXd one = Eigen::VectorXd::Ones(n);
+      const Eigen::VectorXd one = Eigen::VectorXd::Ones(op.L.rows());
       const double size = op.L.diagonal().maxCoeff();
       CHECK(largest_off_diagonal(op) < 1e-10);
       CHECK(Eigen::MatrixXd(op.L) == Eigen::MatrixXd(op.L).transpose());
@@ -279,10 +272,9 @@ TEST_CASE("A flipped Laplacian has no positive weights, sums to zero and keeps t
       CHECK(op.mass.minCoeff() > 0.);
       CHECK(op.mass.sum() == Approx(before.mass.sum()).epsilon(1e-12));
       CHECK(SG::number_of_zero_eigenvalues(op) == 1);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(op.L),
-                                                                  Eigen::EigenvaluesOnly);
-      CHECK(solver.eigenvalues()(0) > -1e-13 * size);
-      CHECK(solver.eigenvalues()(1) > 1e-9 * size);
+      const Eigen::VectorXd values = eigenvalues(op.L);
+      CHECK(values(0) > -1e-13 * size);
+      CHECK(values(1) > 1e-9 * size);
     }
   }
 }
@@ -290,11 +282,9 @@ TEST_CASE("A flipped Laplacian has no positive weights, sums to zero and keeps t
 TEST_CASE("Flips lower the Dirichlet energy of every function")
 {
   for(const shapes::Matrices& mesh : closed_shapes()) {
-    const Eigen::MatrixXd decrease =
-        Eigen::MatrixXd(plain(mesh).L) - Eigen::MatrixXd(intrinsic(mesh).L);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(decrease, Eigen::EigenvaluesOnly);
-    CHECK(solver.eigenvalues()(0) > -1e-12 * solver.eigenvalues().maxCoeff());
-    CHECK(solver.eigenvalues().maxCoeff() > 0.01);
+    const Eigen::VectorXd decreases = eigenvalues(plain(mesh).L - intrinsic(mesh).L);
+    CHECK(decreases(0) > -1e-12 * decreases.maxCoeff());
+    CHECK(decreases.maxCoeff() > 0.01);
   }
 }
 
@@ -360,10 +350,10 @@ TEST_CASE("A mesh that is Delaunay keeps its operators")
       {shapes::icosphere_matrices(2), shapes::equilateral_matrices(7),
        shapes::tetrahedron_matrices(), shapes::grid_matrices(5, 4), border_cap})
     for(const Mass mass : masses) {
-      CHECK(difference(intrinsic(mesh, mass).L, plain(mesh, mass).L) < 1e-14);
-      CHECK(difference(intrinsic(mesh, mass).B, plain(mesh, mass).B) < 1e-14);
-      CHECK((intrinsic(mesh, mass).mass - plain(mesh, mass).mass).norm() <
-            1e-14 * plain(mesh).mass.norm());
+      const Laplace_operator op = intrinsic(mesh, mass), expected = plain(mesh, mass);
+      CHECK(difference(op.L, expected.L) < 1e-14);
+      CHECK(difference(op.B, expected.B) < 1e-14);
+      CHECK((op.mass - expected.mass).norm() < 1e-14 * plain(mesh).mass.norm());
     }
   CHECK(difference(intrinsic(cap).L, plain(cap).L) > 0.1);
   CHECK(largest_off_diagonal(plain(cap)) > 1e5);
@@ -379,17 +369,15 @@ TEST_CASE("Neither scale nor motion changes a flipped Laplacian")
     for(const Mass mass : masses) {
       const Laplace_operator op = intrinsic(mesh, mass);
       for(const double scale : {1e-140, 1e-5, 1e7, 1e140}) {
-        shapes::Matrices other = mesh;
-        other.V *= scale;
-        const Laplace_operator scaled = intrinsic(other, mass);
+        const Laplace_operator scaled = intrinsic({scale * mesh.V, mesh.T}, mass);
         CHECK(difference(scaled.L, op.L) < 1e-12);
         CHECK((scaled.mass / scale / scale - op.mass).cwiseAbs().maxCoeff() <
               1e-12 * op.mass.maxCoeff());
       }
-      shapes::Matrices moved = mesh;
-      moved.V = (mesh.V * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);
-      CHECK(difference(intrinsic(moved, mass).L, op.L) < 1e-10);
-      CHECK(difference(intrinsic(moved, mass).B, op.B) < 1e-10);
+      const Laplace_operator moved = intrinsic(
+          {(mesh.V * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2), mesh.T}, mass);
+      CHECK(difference(moved.L, op.L) < 1e-10);
+      CHECK(difference(moved.B, op.B) < 1e-10);
     }
 }
 
@@ -397,13 +385,11 @@ TEST_CASE("A sphere of long thin faces has eigenvalues closer to l (l + 1)")
 {
   const shapes::Matrices mesh = twisted_sphere(4, 2.);
   const auto mean_error = [](const Laplace_operator& op) {
-    const Eigen::VectorXd values = SG::eigenpairs(op, 49).values;
+    const Eigen::ArrayXd values = SG::eigenpairs(op, 49).values;
     double sum = 0.;
-    Eigen::Index k = 1;
-    for(int l = 1; l <= 6; ++l)
-      for(int copy = 0; copy <= 2 * l; ++copy, ++k)
-        sum += std::abs(values(k) / (l * (l + 1.)) - 1.);
-    return sum / double(k - 1);
+    for(int l = 1; l <= 6; ++l) // of degree l there are 2 l + 1
+      sum += (values.segment(l * l, 2 * l + 1) / (l * (l + 1.)) - 1.).abs().sum();
+    return sum / 48;
   };
   // Sheared faces make eigenvalues too large, lumped masses too small: without flips these errors
   // cancel in part.
@@ -462,8 +448,9 @@ TEST_CASE("Borders and edges that are not manifold stay")
   const std::vector<Vector3d> points = {
       {0, 0, 0}, {1, 0, 0}, {0.4, 0.1, 0}, {0.6, -0.1, 0}, {0.5, 0, 0.1}};
   const auto unchanged = [](const shapes::Matrices& mesh) {
-    return difference(intrinsic(mesh, Mass::averaged).L, plain(mesh, Mass::averaged).L) < 1e-14 &&
-           difference(intrinsic(mesh, Mass::averaged).B, plain(mesh, Mass::averaged).B) < 1e-14;
+    const Laplace_operator op = intrinsic(mesh, Mass::averaged),
+                           expected = plain(mesh, Mass::averaged);
+    return difference(op.L, expected.L) < 1e-14 && difference(op.B, expected.B) < 1e-14;
   };
   const auto first = [&](const std::size_t n, const std::vector<Eigen::Vector3i>& triangles) {
     return shapes::matrices({points.begin(), points.begin() + std::ptrdiff_t(n)}, triangles);
@@ -476,12 +463,11 @@ TEST_CASE("Borders and edges that are not manifold stay")
   CHECK(largest_off_diagonal(intrinsic(first(3, {{0, 1, 2}}))) > 1.);
 
   // A closed needle sphere with one more face on an edge is flipped elsewhere, and has its area.
-  shapes::Matrices fin = needle_sphere(2, 0.97);
-  const int n = int(fin.V.rows());
-  fin.V.conservativeResize(n + 1, 3);
-  fin.V.row(n) = 2 * fin.V.row(0);
-  fin.T.conservativeResize(fin.T.rows() + 1, 3);
-  fin.T.row(fin.T.rows() - 1) << fin.T(0, 0), fin.T(0, 1), n;
+  const shapes::Matrices sphere = needle_sphere(2, 0.97);
+  const Eigen::Index n = sphere.V.rows(), m = sphere.T.rows();
+  shapes::Matrices fin{Eigen::MatrixXd(n + 1, 3), Eigen::MatrixXi(m + 1, 3)};
+  fin.V << sphere.V, 2 * sphere.V.row(0);
+  fin.T << sphere.T, sphere.T(0, 0), sphere.T(0, 1), int(n);
   CHECK(intrinsic(fin).mass.sum() == Approx(plain(fin).mass.sum()));
   CHECK(intrinsic(fin).L.diagonal().sum() < 0.9 * plain(fin).L.diagonal().sum());
 }
@@ -545,9 +531,7 @@ TEST_CASE("Flips end, whatever is degenerate")
       ++accepted;
       const double size = op.L.diagonal().maxCoeff();
       CHECK((op.L * Eigen::VectorXd::Ones(op.L.cols())).cwiseAbs().maxCoeff() <= 1e-12 * size);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(op.L),
-                                                                  Eigen::EigenvaluesOnly);
-      CHECK(solver.eigenvalues()(0) >= -1e-12 * size);
+      CHECK(eigenvalues(op.L)(0) >= -1e-12 * size);
     } catch(const std::invalid_argument& error) {
       ++refused;
       CHECK_THAT(error.what(), ContainsSubstring("no mass") || ContainsSubstring("needle"));
@@ -559,53 +543,41 @@ TEST_CASE("Flips end, whatever is degenerate")
 
 TEST_CASE("Bad meshes are refused by the name of the first offender, before and after flips")
 {
-  shapes::Matrices mesh = shapes::grid_matrices(4, 4);
-  SECTION("a coordinate that is not a number")
-  {
-    mesh.V(7, 1) = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("vertex 7 "));
-    CHECK_THROWS_WITH(SG::intrinsic_delaunay_laplacian(mesh.V.leftCols(2), mesh.T),
-                      ContainsSubstring("3 columns"));
-  }
-  SECTION("indices, as of any operator")
-  {
-    mesh.T(5, 2) = 25;
-    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("face 5 ") && ContainsSubstring("0..24"));
-  }
-  SECTION("an isolated vertex")
-  {
-    mesh.V.conservativeResize(26, 3);
-    mesh.V.row(25).setConstant(0.5);
-    CHECK_THROWS_WITH(intrinsic(mesh),
-                      ContainsSubstring("vertex 25 ") && ContainsSubstring("isolated"));
-  }
-  SECTION("only faces without area")
-  {
-    mesh.V.col(0) = mesh.V.col(1);
-    CHECK_THROWS_WITH(intrinsic(mesh),
-                      ContainsSubstring("vertex 0 ") && ContainsSubstring("zero area"));
-    mesh.V.setZero();
-    CHECK_THROWS_WITH(intrinsic(mesh),
-                      ContainsSubstring("vertex 0 ") && ContainsSubstring("zero area"));
-  }
-  SECTION("a needle on a border, where nothing can be flipped")
-  {
-    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0.5, -1e-13, 0}}, {{0, 2, 1}});
-    CHECK_THROWS_WITH(intrinsic(mesh),
-                      ContainsSubstring("0, 2 and 1 ") && ContainsSubstring("needle"));
-    // With a face beyond its longest edge it is gone.
-    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1e-13, 0}},
-                            {{0, 1, 2}, {0, 3, 1}});
-    CHECK_THROWS_WITH(plain(mesh), ContainsSubstring("needle"));
-    CHECK(intrinsic(mesh).L.coeff(2, 3) == Approx(-0.5)); // right at 0, an eighth of a turn at 1
-  }
-  SECTION("an area that overflows")
-  {
-    mesh.V *= 1e160;
-    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("too large"));
-    mesh.V = (2. * mesh.V.array() / 1e160 - 1.) * 1.7e308; // differences overflow
-    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("too large"));
-  }
+  const shapes::Matrices good = shapes::grid_matrices(4, 4);
+  const auto refused = [](const shapes::Matrices& mesh, const std::string& offender,
+                          const std::string& fault) {
+    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring(offender) && ContainsSubstring(fault));
+  };
+  shapes::Matrices mesh = good;
+  mesh.V(7, 1) = std::numeric_limits<double>::quiet_NaN();
+  refused(mesh, "vertex 7 ", "not a finite number");
+  CHECK_THROWS_WITH(SG::intrinsic_delaunay_laplacian(mesh.V.leftCols(2), mesh.T),
+                    ContainsSubstring("3 columns"));
+  mesh = good; // indices, as of any operator
+  mesh.T(5, 2) = 25;
+  refused(mesh, "face 5 ", "0..24");
+  mesh = good;
+  mesh.V.conservativeResize(26, 3);
+  mesh.V.row(25).setConstant(0.5);
+  refused(mesh, "vertex 25 ", "isolated");
+  mesh = good;
+  mesh.V.col(0) = mesh.V.col(1);
+  refused(mesh, "vertex 0 ", "zero area");
+  mesh.V.setZero();
+  refused(mesh, "vertex 0 ", "zero area");
+  // On a border nothing can be flipped.
+  mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0.5, -1e-13, 0}}, {{0, 2, 1}});
+  refused(mesh, "0, 2 and 1 ", "needle");
+  // With a face beyond its longest edge the needle is gone.
+  mesh =
+      shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1e-13, 0}}, {{0, 1, 2}, {0, 3, 1}});
+  CHECK_THROWS_WITH(plain(mesh), ContainsSubstring("needle"));
+  CHECK(intrinsic(mesh).L.coeff(2, 3) == Approx(-0.5)); // right at 0, an eighth of a turn at 1
+  // An area overflows, then differences of coordinates do.
+  mesh = {1e160 * good.V, good.T};
+  refused(mesh, "0, 1 and 6 ", "too large");
+  mesh.V = (2. * good.V.array() - 1.) * 1.7e308;
+  refused(mesh, "0, 1 and 6 ", "too large");
 }
 
 } // namespace test_intrinsic_delaunay

@@ -41,13 +41,26 @@ Outcome outcome(const Mesh& mesh, const Policies& policies)
   return {coarse.V, coarse.T, policies.restriction(), policies.error()};
 }
 
+// A run down to N vertices, with the state that it left behind.
+struct Run
+{
+  Mesh mesh;
+  Policies policies;
+
+  Run(const shapes::Matrices& input, const Spectral_options& options, const std::size_t N)
+    : mesh(make_mesh(input))
+    , policies(mesh, options)
+  {
+    collapse(mesh, policies, N);
+  }
+  std::string fault(const Input& fine) const { return fault_of_run(mesh, policies, fine); }
+};
+
 Outcome outcome_of_run(const shapes::Matrices& input, const Spectral_options& options,
                        const std::size_t N)
 {
-  Mesh mesh = make_mesh(input);
-  const Policies policies(mesh, options);
-  collapse(mesh, policies, N);
-  return outcome(mesh, policies);
+  const Run run(input, options, N);
+  return outcome(run.mesh, run.policies);
 }
 
 // What it costs to collapse each edge of the input.
@@ -94,8 +107,7 @@ TEST_CASE("After thousands of collapses the tracked E, P and F are those recompu
   collapse(mesh, policies, 150);
   CHECK(count_vertices(mesh) == 150);
   CHECK(policies.state().number_of_vertices() == 150);
-  Check check;
-  check.binary = options.binary;
+  const Check check{options.binary};
   const Input fine = eigen_input(input, options.mass, *policies.eigenpairs());
   CHECK(fault_of_run(mesh, policies, fine, check) == "");
   const double scale = std::sqrt(fine.basis.lambda.squaredNorm());
@@ -134,14 +146,11 @@ TEST_CASE("E bounds the commutativity norm, and is its sum over the whole coarse
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   const Eigen::Index K = 15, N = 180;
-  Mesh mesh = make_mesh(input);
-  const Policies policies(mesh, options_with(K));
-  collapse(mesh, policies, N);
+  const Run run(input, options_with(K), N);
+  const Policies& policies = run.policies;
   const Basis basis = eigen_input(input, SG::Mass::lumped, *policies.eigenpairs()).basis;
-
   // Both meshes at the scale at which the input has unit area.
-  shapes::Matrices coarse = SG::mesh_matrices(mesh);
-  coarse.V /= std::sqrt(basis.area);
+  const shapes::Matrices coarse = scaled(SG::mesh_matrices(run.mesh), 1 / std::sqrt(basis.area));
   const SG::Laplace_operator op = SG::laplace_operator(coarse.V, coarse.T, SG::Mass::lumped);
   const SG::Eigenpairs all = SG::eigenpairs(op, N);
   const Eigen::MatrixXd C = SG::functional_map(all.vectors, op.B, policies.restriction(), basis.F);
@@ -157,15 +166,14 @@ TEST_CASE("The functional map of a symmetric shape is block-diagonal")
 {
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const shapes::Matrices input = shapes::icosphere_matrices(4);
-  Mesh mesh = make_mesh(input);
   Spectral_options options = options_with(16);
   options.mass = mass;
-  const Policies policies(mesh, options);
-  collapse(mesh, policies, 300);
+  const Run run(input, options, 300);
   const SG::Laplace_operator fine = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
-  const SG::Laplace_operator coarse = SG::cotangent_laplacian(mesh, mass);
-  const SG::Spectral_evaluation e = SG::evaluate_spectrum(
-      fine, *policies.eigenpairs(), coarse, SG::eigenpairs(coarse, 24), policies.restriction(), 16);
+  const SG::Laplace_operator coarse = SG::cotangent_laplacian(run.mesh, mass);
+  const SG::Spectral_evaluation e =
+      SG::evaluate_spectrum(fine, *run.policies.eigenpairs(), coarse, SG::eigenpairs(coarse, 24),
+                            run.policies.restriction(), 16);
   double off = e.C.squaredNorm();
   for(int l = 0; l < 4; ++l) { // spherical harmonics of degree l: 2 l + 1 of them
     const Eigen::MatrixXd block = e.C.block(l * l, l * l, 2 * l + 1, 2 * l + 1);
@@ -178,10 +186,9 @@ TEST_CASE("The functional map of a symmetric shape is block-diagonal")
 
 TEST_CASE("The same input gives the same result, on any number of threads")
 {
-  const bool bordered = GENERATE(false, true);
+  const bool bordered = GENERATE(false, true), zero_length = GENERATE(false, true);
   shapes::Matrices input =
       bordered ? wavy_grid_matrices(24, 22) : shapes::bumpy_icosphere_matrices(3);
-  const bool zero_length = GENERATE(false, true);
   if(zero_length)
     for(const int f : {20, 200, 400, 700})
       input.V.row(input.T(f, 0)) = input.V.row(input.T(f, 1));
@@ -217,12 +224,10 @@ TEST_CASE("Ready eigenpairs give the mesh that computed ones give")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Spectral_options options = options_with(12);
-  Mesh mesh = make_mesh(input);
-  const Policies policies(mesh, options);
-  collapse(mesh, policies, 150);
-  options.eigenpairs = policies.eigenpairs();
+  const Run run(input, options, 150);
+  options.eigenpairs = run.policies.eigenpairs();
   options.number_of_eigenvectors = 1; // theirs is the number that counts
-  CHECK(outcome_of_run(input, options, 150) == outcome(mesh, policies));
+  CHECK(outcome_of_run(input, options, 150) == outcome(run.mesh, run.policies));
 }
 
 TEST_CASE("Eigenpairs that do not belong to the mesh and the mass are refused")
@@ -231,49 +236,25 @@ TEST_CASE("Eigenpairs that do not belong to the mesh and the mass are refused")
   Mesh mesh = make_mesh(input);
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::Mass::lumped);
   const SG::Eigenpairs good = SG::eigenpairs(op, 8);
-  Spectral_options options = Spectral_options::paper();
-  const auto refuse = [&](const SG::Eigenpairs& pairs, const std::string& text) {
+  const auto refuse_if = [&](const auto& spoil, const std::string& text) {
+    SG::Eigenpairs pairs = good;
+    Spectral_options options = Spectral_options::paper();
+    spoil(pairs, options);
     options.eigenpairs = std::make_shared<SG::Eigenpairs>(pairs);
     CHECK_THROWS_AS(Policies(mesh, options), std::invalid_argument);
     CHECK_THROWS_WITH(Policies(mesh, options), ContainsSubstring(text));
   };
-  SG::Eigenpairs pairs = good;
-  SECTION("in another mass")
-  {
-    options.mass = SG::Mass::averaged;
-    refuse(pairs, "averaged");
-  }
-  SECTION("a vector spoilt")
-  {
-    pairs.vectors(5, 3) += 0.1;
-    refuse(pairs, "eigenpair 3 ");
-  }
-  SECTION("a value that is not a number")
-  {
-    pairs.values(6) = std::nan("");
-    refuse(pairs, "eigenpair 6 ");
-  }
-  SECTION("of another mesh")
-  {
-    pairs.vectors.conservativeResize(50, 8);
-    refuse(pairs, "50 rows");
-  }
-  SECTION("none at all")
-  {
+  refuse_if([](auto&, auto& options) { options.mass = SG::Mass::averaged; }, "averaged");
+  refuse_if([](auto& pairs, auto&) { pairs.vectors(5, 3) += 0.1; }, "eigenpair 3 ");
+  refuse_if([](auto& pairs, auto&) { pairs.values(6) = std::nan(""); }, "eigenpair 6 ");
+  refuse_if([](auto& pairs, auto&) { pairs.vectors.conservativeResize(50, 8); }, "50 rows");
+  const auto take_all = [](auto& pairs, auto&) {
     pairs.values.resize(0);
     pairs.vectors.resize(162, 0);
-    refuse(pairs, "eigen");
-  }
-  SECTION("fewer values than vectors")
-  {
-    pairs.values.conservativeResize(5);
-    refuse(pairs, "5");
-  }
-  SECTION("together with signals")
-  {
-    options.signals = input.V;
-    refuse(pairs, "signals");
-  }
+  };
+  refuse_if(take_all, "there are no eigenpairs");
+  refuse_if([](auto& pairs, auto&) { pairs.values.conservativeResize(5); }, "5 eigenvalues for 8");
+  refuse_if([&](auto&, auto& options) { options.signals = input.V; }, "signals");
 }
 
 TEST_CASE("Rough eigenpairs still start from E = 0, and E is tracked with B^-1 L F")
@@ -286,16 +267,14 @@ TEST_CASE("Rough eigenpairs still start from E = 0, and E is tracked with B^-1 L
   Spectral_options options = Spectral_options::paper();
   options.mass = mass;
   options.eigenpairs = pairs;
-  Mesh mesh = make_mesh(input);
-  const Policies policies(mesh, options);
-  collapse(mesh, policies, 640);
+  Run run(input, options, 640);
   Input fine = eigen_input(input, mass, *pairs);
   const Eigen::VectorXd lambda = fine.basis.lambda;
   fine.basis = signal_basis(input, op.theta, fine.basis.F);
   fine.basis.lambda = lambda; // which says what is constant
-  CHECK(policies.state().basis().rough);
-  collapse(mesh, policies, 100);
-  CHECK(fault_of_run(mesh, policies, fine) == "");
+  CHECK(run.policies.state().basis().rough);
+  collapse(run.mesh, run.policies, 100);
+  CHECK(run.fault(fine) == "");
 }
 
 TEST_CASE("Rough eigenpairs of our own solver are taken again by the residuals that they came with")
@@ -304,24 +283,20 @@ TEST_CASE("Rough eigenpairs of our own solver are taken again by the residuals t
   Spectral_options options = options_with(30);
   options.eigenpairs_options.method = SG::Eigenpairs_method::block;
   options.eigenpairs_options.tolerance = 1e-2;
-  Mesh mesh = make_mesh(input);
-  const Policies policies(mesh, options);
-  collapse(mesh, policies, 641);
-  CHECK(policies.state().basis().rough);
-  collapse(mesh, policies, 150);
+  Run run(input, options, 641);
+  CHECK(run.policies.state().basis().rough);
   Spectral_options again = Spectral_options::paper();
-  again.eigenpairs = policies.eigenpairs();
+  again.eigenpairs = run.policies.eigenpairs();
   CHECK(again.eigenpairs->residuals.maxCoeff() > 1e-3);
-  Mesh same = make_mesh(input);
-  const Policies policies_again(same, again);
-  collapse(same, policies_again, 641);
-  collapse(same, policies_again, 150);
-  CHECK(outcome(same, policies_again) == outcome(mesh, policies));
+  Run same(input, again, 641);
+  for(Run* r : {&run, &same})
+    collapse(r->mesh, r->policies, 150);
+  CHECK(outcome(same.mesh, same.policies) == outcome(run.mesh, run.policies));
 
   SG::Eigenpairs stripped = *again.eigenpairs;
   stripped.residuals.resize(0);
   again.eigenpairs = std::make_shared<SG::Eigenpairs>(stripped);
-  CHECK_THROWS_AS(Policies(mesh, again), std::invalid_argument);
+  CHECK_THROWS_AS(Policies(run.mesh, again), std::invalid_argument);
 }
 
 TEST_CASE("A signal of weight zero is absent, and weights multiply what a signal costs")
@@ -344,14 +319,14 @@ TEST_CASE("A signal of weight zero is absent, and weights multiply what a signal
   weighted.weights.head(6) *= 3;
   CHECK(largest_relative_difference(costs(input, weighted), costs(input, plain), 3) < 1e-9);
 
-  weighted.weights = Eigen::VectorXd::Zero(10);
-  weighted.weights(2) = 5;
-  const std::vector<double> c2 = costs(input, weighted);
-  weighted.weights = Eigen::VectorXd::Zero(10);
-  weighted.weights(7) = 2;
-  const std::vector<double> c7 = costs(input, weighted);
-  weighted.weights(2) = 5;
-  std::vector<double> sum = costs(input, weighted);
+  const auto costs_of = [&](const double weight_of_2, const double weight_of_7) {
+    weighted.weights = Eigen::VectorXd::Zero(10);
+    weighted.weights(2) = weight_of_2;
+    weighted.weights(7) = weight_of_7;
+    return costs(input, weighted);
+  };
+  const std::vector<double> c2 = costs_of(5, 0), c7 = costs_of(0, 2);
+  std::vector<double> sum = costs_of(5, 2);
   for(std::size_t i = 0; i < sum.size(); ++i)
     if(sum[i] < 1e300)
       sum[i] -= c2[i];
@@ -364,10 +339,10 @@ TEST_CASE("A rotation of the signals within their span leaves every cost as it i
   const shapes::Matrices input = wavy_grid_matrices(14, 13);
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
   const SG::Eigenpairs pairs = SG::eigenpairs(op, 9);
-  Eigen::MatrixXd random(9, 9);
+  Eigen::MatrixXd rotation(9, 9);
   for(Eigen::Index i = 0; i < 81; ++i)
-    random(i) = std::sin(12.9898 * double(i * i + 1));
-  const Eigen::MatrixXd rotation = Eigen::HouseholderQR<Eigen::MatrixXd>(random).householderQ();
+    rotation(i) = std::sin(12.9898 * double(i * i + 1));
+  rotation = Eigen::MatrixXd(rotation.householderQr().householderQ());
   Spectral_options options = Spectral_options::paper();
   options.mass = mass;
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(pairs);
@@ -384,22 +359,20 @@ TEST_CASE("A rotation of the signals within their span leaves every cost as it i
 TEST_CASE("Signals of the user's are followed as eigenvectors are")
 {
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
-  const bool weighted = GENERATE(false, true);
   const shapes::Matrices input = wavy_grid_matrices(24, 22);
   Spectral_options options = Spectral_options::paper();
   options.mass = mass;
   options.signals = rough_signals(input, 5);
-  if(weighted)
-    options.weights = (Eigen::VectorXd(5) << 1, 0, 0.25, 9, 2).finished();
-  Mesh mesh = make_mesh(input);
-  const Policies policies(mesh, options);
-  CHECK(policies.eigenpairs() == nullptr);
-  collapse(mesh, policies, 100);
   Eigen::MatrixXd F = options.signals;
-  if(weighted)
+  if(GENERATE(false, true)) {
+    options.weights = (Eigen::VectorXd(5) << 1, 0, 0.25, 9, 2).finished();
     F = F * options.weights.cwiseSqrt().asDiagonal();
+  }
+  const Run run(input, options, 100);
+  const Policies& policies = run.policies;
+  CHECK(policies.eigenpairs() == nullptr);
   const Input fine{input, signal_basis(input, SG::mass_blend(mass), F)};
-  CHECK(fault_of_run(mesh, policies, fine) == "");
+  CHECK(run.fault(fine) == "");
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
   const double lost = fine.basis.Z.cwiseProduct(op.B * fine.basis.Z).sum() / fine.basis.area;
   CHECK(policies.relative_error() == Catch::Approx(std::sqrt(policies.error() / lost)));
@@ -430,14 +403,13 @@ TEST_CASE("Pairs of constants are left out of E: beside needles they hold someth
 {
   const Eigen::Index K = GENERATE(1, 2, 5);
   CAPTURE(K);
-  shapes::Matrices input = shapes::grid_matrices(6, 3, 1e-5, 1.);
-  Mesh mesh = make_mesh(input);
+  const shapes::Matrices input = shapes::grid_matrices(6, 3, 1e-5, 1.);
   Spectral_options options = options_with(K);
   options.mass = SG::Mass::lumped;
   options.number_of_mixtures = 0;
-  const Policies policies(mesh, options);
-  collapse(mesh, policies, 9);
-  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  const Run run(input, options, 9);
+  const Policies& policies = run.policies;
+  const shapes::Matrices coarse = SG::mesh_matrices(run.mesh);
   const Eigen::SparseMatrix<double> P = policies.restriction();
   Basis basis = eigen_input(input, options.mass, *policies.eigenpairs()).basis;
   const Basis constant{
@@ -461,22 +433,13 @@ TEST_CASE("Policies take their own eigenpairs back where all triangles are thin"
 TEST_CASE("Meshes that cannot be used are refused by the name of the first offender")
 {
   Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1));
-  SECTION("an isolated vertex")
-  {
-    mesh.add_vertex(Kernel::Point_3(9, 9, 9));
-    CHECK_THROWS_WITH(Policies(mesh, options_with(5)),
-                      ContainsSubstring("vertex 42 ") && ContainsSubstring("isolated"));
-  }
-  SECTION("a quadrangle")
-  {
-    CGAL::Euler::join_face(mesh.halfedge(Mesh::Face_index(7)), mesh);
-    CHECK_THROWS_WITH(Policies(mesh, options_with(5)), ContainsSubstring("not a triangle"));
-  }
-  SECTION("no face at all")
-  {
-    Mesh empty;
-    CHECK_THROWS_AS(Policies(empty, options_with(5)), std::invalid_argument);
-  }
+  Mesh isolated = mesh, empty;
+  isolated.add_vertex(Kernel::Point_3(9, 9, 9));
+  CHECK_THROWS_WITH(Policies(isolated, options_with(5)),
+                    ContainsSubstring("vertex 42 ") && ContainsSubstring("isolated"));
+  CGAL::Euler::join_face(mesh.halfedge(Mesh::Face_index(7)), mesh);
+  CHECK_THROWS_WITH(Policies(mesh, options_with(5)), ContainsSubstring("not a triangle"));
+  CHECK_THROWS_AS(Policies(empty, options_with(5)), std::invalid_argument);
 }
 
 } // namespace test_policies

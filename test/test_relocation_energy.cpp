@@ -69,29 +69,35 @@ struct Penalty
   }
 };
 
+// A row for each of n vertices.
+Rows waves(const Eigen::Index n, const double frequency, const double phase = 0,
+           const Eigen::Index columns = 3)
+{
+  return Rows::NullaryExpr(n, columns, [=](const Eigen::Index v, const Eigen::Index k) {
+    return std::sin(frequency * double(v * columns + k) + phase);
+  });
+}
+
 template <class Energy>
 double gradient_error(Energy& energy, const Positions& V)
 {
-  Positions gradient, direction = Positions::Zero(V.rows(), 3);
+  Positions gradient;
   energy.value_and_gradient(V, gradient);
   double worst = 0;
   const double h = 1e-5;
   for(int trial = 0; trial < 6; ++trial) {
-    for(Eigen::Index i = 0; i < direction.size(); ++i)
-      direction.data()[i] = std::sin(17. * double(i) * (trial + 1) + trial);
+    Positions direction = waves(V.rows(), 17. * (trial + 1), trial);
     if(trial > 3) { // one vertex alone
-      const Eigen::Index w = 7 * trial;
-      const Eigen::RowVector3d d = direction.row(w);
-      direction.setZero();
-      direction.row(w) = d;
+      direction.topRows(7 * trial).setZero();
+      direction.bottomRows(V.rows() - 7 * trial - 1).setZero();
     }
     // Five points: small triangles bend the energy too much for two.
     const auto difference = [&](const double step) {
       return energy.value(V + step * direction) - energy.value(V - step * direction);
     };
     const double slope = (8 * difference(h) - difference(2 * h)) / (12 * h);
-    const double expected = gradient.cwiseProduct(direction).sum();
-    worst = (std::max)(worst, std::abs(slope - expected) / gradient.cwiseProduct(direction).norm());
+    const Positions expected = gradient.cwiseProduct(direction);
+    worst = (std::max)(worst, std::abs(slope - expected.sum()) / expected.norm());
   }
   return worst;
 }
@@ -189,21 +195,18 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
           "is right")
 {
   for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
-    const Positions V = s->coarse.V;
-    Positions W = V;
-    for(Eigen::Index i = 0; i < W.size(); ++i)
-      W.data()[i] += 0.004 * std::sin(12.9898 * double(i));
+    const Positions V = s->coarse.V, W = V + 0.004 * waves(V.rows(), 12.9898);
     SG::internal::Spectrum_term guard(s->coarse.T, V, 0.5, 20, {}, {}, {});
     REQUIRE(guard.is_active());
     CHECK(std::abs(guard.changes(V).mean()) < 1e-4);
     const double before = guard.changes(W).mean(); // with the eigenvectors of V
     guard.refresh(W);
     guard.refresh(W); // each is one step of an iteration
-    const auto values = [&](const Positions& at) {
+    const auto values = [&](const Positions& at, const Eigen::Index n) {
       const SG::Laplace_operator op = SG::laplace_operator(at, s->coarse.T, 0.5);
-      return Eigen::ArrayXd(op.mass.sum() * SG::eigenpairs(op, 30).values.tail(10).array());
+      return Eigen::ArrayXd(op.mass.sum() * SG::eigenpairs(op, n).values.array());
     };
-    const double change = (values(W) / values(V)).mean() - 1;
+    const double change = (values(W, 30) / values(V, 30)).tail(10).mean() - 1;
     CHECK(guard.changes(W).mean() == Catch::Approx(change).margin(1e-4));
     CHECK(before > change);   // eigenvectors of another mesh
     REQUIRE(change < 0.0015); // the penalty begins at 0.002
@@ -216,8 +219,7 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     // Goals of all but the constant, and four eigenvalues after them, that say how far the others
     // are to rise.
     limits.beyond = 1;
-    const SG::Laplace_operator op = SG::laplace_operator(V, s->coarse.T, 0.5);
-    Eigen::VectorXd eigenvalues = op.mass.sum() * SG::eigenpairs(op, 12).values;
+    Eigen::VectorXd eigenvalues = values(V, 12);
     eigenvalues.tail(11) *= 1.01;
     SG::internal::Spectrum_term goals(s->coarse.T, V, 0.5, 8, eigenvalues, {}, limits);
     REQUIRE(goals.has_goals());
@@ -250,9 +252,8 @@ TEST_CASE("the term of low modes is the angle by which they are turned, and its 
     const auto value_of_turned = [&](const double angle) {
       const auto turned = [&](const Positions&, const Eigen::Index count) {
         Eigen::MatrixXd result = 2 * pairs.vectors.leftCols(count); // of another scale
-        const Eigen::VectorXd x = result.col(i), y = result.col(j);
-        result.col(i) = std::cos(angle) * x + std::sin(angle) * y;
-        result.col(j) = std::cos(angle) * y - std::sin(angle) * x;
+        result.applyOnTheRight(i, j,
+                               Eigen::JacobiRotation<double>(std::cos(angle), -std::sin(angle)));
         return result;
       };
       return Penalty{{s->coarse.T, V, 0.5, K, values, turned, limits}}.value(V);
@@ -260,17 +261,14 @@ TEST_CASE("the term of low modes is the angle by which they are turned, and its 
     CHECK(value_of_turned(0) < 1e-4);
     const double angle = 0.1, h = (values(j) - values(i)) * std::sin(2 * angle) / 2 /
                                   std::sqrt(values(i) * values(j));
-    double weights = 0; // of pairs, each counted twice
-    for(Eigen::Index k = 1; k < K; ++k)
-      for(Eigen::Index l = 1; l < K; ++l)
-        weights += k == l ? 0. : 1 / (values(k) * values(l));
+    const Eigen::ArrayXd inverses = values.segment(1, K - 1).array().inverse();
+    const double weights = // of pairs, each counted twice
+        std::pow(inverses.sum(), 2) - inverses.square().sum();
     CHECK(value_of_turned(angle) ==
           Catch::Approx(3. * 2 * h * h / (values(i) * values(j)) / weights / (epsilon * epsilon))
               .epsilon(0.01));
     // At positions where all of it changes.
-    Positions W = V;
-    for(Eigen::Index k = 0; k < W.size(); ++k)
-      W.data()[k] += 0.004 * std::sin(12.9898 * double(k));
+    const Positions W = V + 0.004 * waves(V.rows(), 12.9898);
     const auto moved = [&](const Positions&, const Eigen::Index count) {
       return Eigen::MatrixXd(s->P * s->pairs.vectors.leftCols(count));
     };
@@ -300,14 +298,12 @@ TEST_CASE("the term of the spectrum compares with the start, also where it has t
   const shapes::Matrices sphere = shapes::bumpy_icosphere_matrices(2);
   const int n = int(sphere.V.rows());
   Eigen::MatrixXi T(sphere.T.rows() + 4, 3);
-  T.topRows(sphere.T.rows()) = sphere.T;
-  T.bottomRows(4) << n, n + 2, n + 1, n, n + 1, n + 3, n + 1, n + 2, n + 3, n + 2, n, n + 3;
+  T << sphere.T, n, n + 2, n + 1, n, n + 1, n + 3, n + 1, n + 2, n + 3, n + 2, n, n + 3;
   for(const double size : {1e-4, 1e-5})
     for(const double height : {1e-8, 3e-9, 1e-9, 3e-10, 1e-10}) {
       CAPTURE(size, height);
       Positions V(n + 4, 3);
-      V.topRows(n) = sphere.V;
-      V.bottomRows(4) << 0, 0, 0, size, 0, 0, 0, size, 0, 0, 0, size;
+      V << sphere.V, 0, 0, 0, size, 0, 0, 0, size, 0, 0, 0, size;
       Positions W = V;
       W.col(2).head(n) *= 1.3;
       W.row(n + 3) << 0.5 * size, -height * size, height * size;
@@ -324,11 +320,10 @@ TEST_CASE("signals read off a surface are those of its closest points, with the 
   const SG::internal::Closest_point_query closest(fine);
   Positions V(32, 3); // inside of faces, and off the surface
   for(Eigen::Index i = 0; i < V.rows(); ++i) {
-    Eigen::Matrix3d corners;
-    for(int k = 0; k < 3; ++k)
-      corners.row(k) = fine.V.row(fine.T(5 * i + 3, k));
-    V.row(i) = (Eigen::RowVector3d(0.3, 0.45, 0.25) * corners) +
-               0.003 * normal(fine.V, fine.T, 5 * i + 3).transpose();
+    const Eigen::Index f = 5 * i + 3;
+    const Eigen::RowVector3i t = fine.T.row(f);
+    V.row(i) = 0.3 * fine.V.row(t[0]) + 0.45 * fine.V.row(t[1]) + 0.25 * fine.V.row(t[2]) +
+               0.003 * normal(fine.V, fine.T, f).transpose();
   }
   const SG::Mesh_matrices coarse{V, Eigen::MatrixXi(0, 3)};
   const SG::internal::Surface_regions regions(coarse, fine,
@@ -343,24 +338,16 @@ TEST_CASE("signals read off a surface are those of its closest points, with the 
     CHECK((Eigen::MatrixXd(f) - read * F).cwiseAbs().maxCoeff() < 1e-12);
     CHECK((Eigen::MatrixXd(z) - read * Z).cwiseAbs().maxCoeff() < 1e-12);
   }
+  const Rows by_F = waves(V.rows(), 1, 0, 4), by_Z = waves(V.rows(), 1, shapes::pi / 2, 4);
   const auto value = [&](const Positions& at) {
     Rows f, z;
     signals.evaluate(at, f, z);
-    double sum = 0;
-    for(Eigen::Index i = 0; i < f.size(); ++i)
-      sum += std::sin(double(i)) * f.data()[i] + std::cos(double(i)) * z.data()[i];
-    return sum;
+    return by_F.cwiseProduct(f).sum() + by_Z.cwiseProduct(z).sum();
   };
-  Rows by_F(V.rows(), 4), by_Z(V.rows(), 4);
-  for(Eigen::Index i = 0; i < by_F.size(); ++i) {
-    by_F.data()[i] = std::sin(double(i));
-    by_Z.data()[i] = std::cos(double(i));
-  }
   value(V);
-  Positions gradient = Positions::Zero(V.rows(), 3), direction(V.rows(), 3);
+  const Positions direction = waves(V.rows(), 5, 1);
+  Positions gradient = Positions::Zero(V.rows(), 3);
   signals.add_gradient(by_F, by_Z, gradient);
-  for(Eigen::Index i = 0; i < direction.size(); ++i)
-    direction.data()[i] = std::sin(5. * double(i) + 1);
   const double slope = (value(V + 1e-6 * direction) - value(V - 1e-6 * direction)) / 2e-6;
   CHECK(slope == Catch::Approx(gradient.cwiseProduct(direction).sum()).epsilon(1e-6));
 }
@@ -373,11 +360,13 @@ struct Springs
   Eigen::MatrixXd H;
   Positions pull;
 
+  double value_at(const Positions& V) const { return V.cwiseProduct(0.5 * H * V - pull).sum(); }
   double value_and_gradient(const Positions& V, Positions& gradient) const
   {
     gradient = H * V - pull;
-    return V.cwiseProduct(0.5 * H * V - pull).sum();
+    return value_at(V);
   }
+  Positions minimum() const { return H.ldlt().solve(Eigen::MatrixXd(pull)); }
 };
 
 // One vertex at most must stay.
@@ -401,14 +390,10 @@ struct One_fixed
 
 TEST_CASE("a vertex that no step of the others suits does not hold them")
 {
-  const Eigen::Index n = 40, stiff = 5;
-  Springs springs{Eigen::MatrixXd::Identity(n, n), Positions(n, 3)};
-  springs.H(stiff, stiff) = 1e12;
-  for(Eigen::Index i = 0; i < springs.pull.size(); ++i)
-    springs.pull.data()[i] = std::sin(3. * double(i));
-  Positions gradient;
-  const double least =
-      springs.value_and_gradient(springs.H.ldlt().solve(Eigen::MatrixXd(springs.pull)), gradient);
+  const Eigen::Index n = 40;
+  Springs springs{Eigen::MatrixXd::Identity(n, n), waves(n, 3)};
+  springs.H(5, 5) = 1e12;
+  const double least = springs.value_at(springs.minimum());
   One_fixed guards;
   SG::internal::Guarded_descent<Springs, One_fixed> descent(springs, guards, 0.1);
   descent.start(Positions::Zero(n, 3));
@@ -421,40 +406,37 @@ TEST_CASE("a vertex that no step of the others suits does not hold them")
 TEST_CASE("a descent goes on after a vertex was put back, and knows what it knew")
 {
   const Eigen::Index n = 40;
-  Springs springs{0.01 * Eigen::MatrixXd::Identity(n, n), Positions(n, 3)};
+  Springs springs{0.01 * Eigen::MatrixXd::Identity(n, n), waves(n, 3)};
   for(Eigen::Index i = 0; i + 1 < n; ++i) {
     const double strength = 1 + 30 * (i % 3);
     springs.H.block(i, i, 2, 2) += strength * (Eigen::Matrix2d() << 1., -1., -1., 1.).finished();
   }
-  for(Eigen::Index i = 0; i < springs.pull.size(); ++i)
-    springs.pull.data()[i] = std::sin(3. * double(i));
   One_fixed guards;
   using Descent = SG::internal::Guarded_descent<Springs, One_fixed>;
+  const auto advance = [](Descent& descent, const int steps) {
+    for(int i = 0; i < steps; ++i)
+      REQUIRE(descent.step());
+  };
   const auto after = [&](const int steps) {
     Descent descent(springs, guards, 0.1);
     descent.start(Positions::Zero(n, 3));
-    for(int i = 0; i < steps; ++i)
-      REQUIRE(descent.step());
+    advance(descent, steps);
     return descent;
   };
   Descent whole = after(25), kept = after(15);
   kept.go_on_from(kept.positions()); // where nothing was put back
-  for(int i = 15; i < 25; ++i)
-    REQUIRE(kept.step());
+  advance(kept, 10);
   CHECK(kept.value() == Catch::Approx(whole.value()).epsilon(1e-10));
 
   Positions V = whole.positions();
   V.row(17).setZero();
   guards.v = 17;
-  Eigen::MatrixXd H = springs.H; // the minimum where vertex 17 stays in the origin
-  H.row(17).setZero();
-  H.col(17).setZero();
-  H(17, 17) = 1;
-  Positions pull = springs.pull;
-  pull.row(17).setZero();
-  const Positions best = H.ldlt().solve(Eigen::MatrixXd(pull));
-  Positions gradient;
-  const double least = springs.value_and_gradient(best, gradient);
+  Springs held = springs; // its minimum is that where vertex 17 stays in the origin
+  held.H.row(17).setZero();
+  held.H.col(17).setZero();
+  held.H(17, 17) = 1;
+  held.pull.row(17).setZero();
+  const double least = springs.value_at(held.minimum());
   const auto steps_to_minimum = [&](Descent& descent) {
     const double gap = descent.value() - least;
     int steps = 0;
@@ -476,8 +458,8 @@ TEST_CASE("a descent goes on after a vertex was put back, and knows what it knew
   all.go_on_from(Positions::Zero(n, 3)); // all of them: nothing is known any more
   Descent first = after(0);
   for(int i = 0; i < 10; ++i) {
-    REQUIRE(all.step());
-    REQUIRE(first.step());
+    advance(all, 1);
+    advance(first, 1);
     CHECK(all.value() == Catch::Approx(first.value()).epsilon(1e-10));
   }
 }
