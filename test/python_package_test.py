@@ -1369,6 +1369,37 @@ class Command_line(Case):
         ):
             self.fails(said, words + " --eigenvectors 40 --no-evaluation --quiet")
 
+    @needs("nibabel")
+    def test_structure_of_gifti(self):
+        import nibabel
+
+        ss.write_mesh(self.path("in.gii"), V, F)
+        image = nibabel.load(self.path("in.gii"))
+        names = dict(AnatomicalStructurePrimary="CortexLeft", GeometricType="Anatomical")
+        image.darrays[0].meta.update(names, Name="not of the result")
+        nibabel.save(image, self.path("in.gii"))
+
+        def structure(file):
+            return dict(nibabel.load(self.path(file)).darrays[0].meta)
+
+        ss.write_mesh(self.path("out.gii"), V, F, like=self.path("in.gii"))
+        self.assertEqual(structure("out.gii"), names)
+        ss.write_mesh(self.path("out.gii"), V, F)
+        self.assertEqual(structure("out.gii"), {})
+        self.succeeds("in.gii out.gii --vertices 150 --eigenvectors 40 --quiet --no-evaluation")
+        self.assertEqual(structure("out.gii"), names)
+        nibabel.save(nibabel.GiftiImage(), self.path("nothing.gii"))
+        for path, like, words in (
+            ("new.off", "in.gii", "like is for files of GIFTI, .*new.off does not end"),
+            ("new.gii", "in.off", "like is for files of GIFTI, .*in.off does not end"),
+            ("new.gii", "nothing.gii", "nothing.gii, which holds no surface"),
+        ):
+            self.refused(words, ss.write_mesh, self.path(path), V, F, self.path(like))
+            self.assertNotIn(path, self.files())
+        with self.assertRaises(FileNotFoundError):
+            ss.write_mesh(self.path("new.gii"), V, F, self.path("none.gii"))
+        self.assertNotIn("new.gii", self.files())
+
     def test_files_of_vertices_to_keep(self):
         ss.write_mesh(self.path("turned.off"), V, np.vstack([F[:4, ::-1], F[4:]]))
         np.savetxt(self.path("few"), [7, 400], "%d")

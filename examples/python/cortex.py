@@ -171,7 +171,8 @@ def main(arguments=None):
 
     others = {}
     if a.surface is None:
-        V, F, others["sphere"], mask = folded_sphere()
+        V, F, sphere, mask = folded_sphere()
+        others["sphere"] = sphere, None
     else:
         V, F = ss.read_mesh(a.surface)
         mask = None if a.mask is None else ss.read_mask(a.mask, len(V))
@@ -181,7 +182,8 @@ def main(arguments=None):
             raise ValueError(
                 f"{name} has other faces than the surface: take one of the same subject and mesh."
             )
-        others[pathlib.Path(name).name] = positions  # lh.pial and lh.white have one stem
+        like = name if name.endswith(".gii") else None  # GIFTI says which structure it shows
+        others[pathlib.Path(name).name] = positions, like  # lh.pial and lh.white have one stem
     out.mkdir(parents=True, exist_ok=True)  # before what takes long
 
     curves = {}
@@ -219,10 +221,10 @@ def main(arguments=None):
         f"  {len(np.unique(carried))} of 40 parcels carried, their areas off by "
         f"{100 * abs(small - sizes).max():.2f} % of all at most"
     )
-    for name, positions in others.items():
+    for name, (positions, like) in others.items():
         known = name.endswith((".gii", ".off", ".obj", ".ply", ".stl", ".vtk", ".vtp"))
         place = out / f"cortex_{name}{'' if known else '.off'}"  # lh.pial has no ending of a format
-        ss.write_mesh(place, run.apply(positions).V, run.F)
+        ss.write_mesh(place, run.apply(positions).V, run.F, like)
     ss.write_mesh(out / "cortex.off", run.V, run.F)
     run.save(out / "cortex.npz")
     try:

@@ -271,10 +271,12 @@ def _run(a: argparse.Namespace) -> None:
                 f"{report['mass']}: |C|_L {e.C_L:.3f}, |C|_D {e.C_D:.3f}, eigenvalue error "
                 f"{100 * e.eigenvalue_error:.2f} %"
             )
+    both_gifti = all(file.lower().endswith(".gii") for file in (a.IN, a.OUT))
+    like = a.IN if both_gifti else None
     # All are written beside their places first, and those that enter last get theirs first.
     with contextlib.ExitStack() as places:
         for path, write in (
-            (a.OUT, lambda f: write_mesh(f, run.V, run.F)),
+            (a.OUT, lambda f: write_mesh(f, run.V, run.F, like)),
             (a.save, run.save),
             (
                 a.json,

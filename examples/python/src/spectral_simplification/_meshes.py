@@ -461,7 +461,16 @@ def read_mask(path: Any, n: int) -> numpy.ndarray:
     return found.astype(bool)
 
 
-def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
+def _structure(like: Any) -> dict:
+    """What a surface of GIFTI says of the structure that it shows."""
+    found = _needed("nibabel", like).load(like).get_arrays_from_intent("NIFTI_INTENT_POINTSET")
+    if not found:
+        raise ValueError(f"like is {like}, which holds no surface: pass one that does.")
+    names = "AnatomicalStructurePrimary", "AnatomicalStructureSecondary", "GeometricType"
+    return {name: found[0].meta[name] for name in names if name in found[0].meta}
+
+
+def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray, like: Any = None) -> None:
     """Writes a mesh; the file appears complete or not at all.
 
     Parameters
@@ -472,13 +481,17 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
         Positions.
     F : (f, 3) array
         Triangles.
+    like : str or path, optional
+        For .gii: the GIFTI surface that was simplified, or another of the same structure. The file
+        names that structure (CortexLeft), which Connectome Workbench asks for.
 
     Raises
     ------
     ValueError
-        If the ending is not known, the package is missing that writes it, or V and F are no mesh.
+        If the ending is not known, the package is missing that writes it, or V and F are no mesh;
+        if like is not for this ending, or is no surface.
     FileNotFoundError
-        If its folder does not exist.
+        If its folder does not exist, or like.
     """
     path = pathlib.Path(_path(path))
     _check_folder(str(path))
@@ -499,6 +512,10 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
         vertex = int((~numpy.isfinite(V)).any(axis=1).argmax())
         raise ValueError(f"V[{vertex}] is not finite: correct the position.")
     ending = _check_ending(path)
+    if like is not None:
+        for file in str(path), _path(like):
+            if not file.lower().endswith(".gii"):
+                raise ValueError(f"like is for files of GIFTI, {file} does not end in '.gii'.")
     if ending == ".gii" or ending in _FREESURFER:
         _needed("nibabel", path)
     elif ending in _MESHIO and ending != ".vtk":
@@ -509,16 +526,16 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
         if ending == ".gii":
             import nibabel
 
-            image = nibabel.gifti.GiftiImage()
-            for data, intent, kind in (
+            array = nibabel.gifti.GiftiDataArray
+            structure = {} if like is None else _structure(_path(like))
+            points = array(
                 V.astype(numpy.float32),
                 "NIFTI_INTENT_POINTSET",
                 "NIFTI_TYPE_FLOAT32",
-            ), (F.astype(numpy.int32), "NIFTI_INTENT_TRIANGLE", "NIFTI_TYPE_INT32"):
-                image.add_gifti_data_array(
-                    nibabel.gifti.GiftiDataArray(data, intent=intent, datatype=kind)
-                )
-            nibabel.save(image, temporary)
+                meta=nibabel.gifti.GiftiMetaData(structure),
+            )
+            triangles = array(F.astype(numpy.int32), "NIFTI_INTENT_TRIANGLE", "NIFTI_TYPE_INT32")
+            nibabel.save(nibabel.gifti.GiftiImage(darrays=[points, triangles]), temporary)
         elif ending in _FREESURFER:
             from nibabel.freesurfer import write_geometry
 
