@@ -28,7 +28,7 @@ if(NOT Boost_FOUND)
 endif()
 
 find_package(CGAL QUIET)
-if(NOT CGAL_FOUND)
+if(NOT CGAL_FOUND OR NOT CGAL_VERSION) # which has no version where its files are not complete
   set(Spectral_mesh_simplification_MISSING
       "CGAL 5.5 or later was not found: install it (on Debian: apt-get install libcgal-dev) or set CGAL_DIR.")
   return()
